@@ -1,0 +1,50 @@
+# The short way in. Each target is one script in scripts/; the build itself is CMake (CMakePresets.json).
+.PHONY: help demo test bench asan fuzz format lint clean
+.NOTPARALLEL:
+FUZZ_SECONDS ?= $(if $(CI),60,10)
+export FUZZ_SECONDS
+
+help:
+	@echo "make demo    install what is missing, build, and turn the built-in sky into build/demo/index.html"
+	@echo "make test    the same set-up, then every test, then each fuzzer for FUZZ_SECONDS ($(FUZZ_SECONDS))"
+	@echo "make bench   every benchmark: time and error side by side"
+	@echo "make asan    every test under address and undefined-behaviour sanitizers"
+	@echo "make fuzz    only the fuzzers, FUZZ_SECONDS each"
+	@echo "make format  clang-format on every tracked source;  make lint  checks format and clang-tidy"
+	@echo "make clean   removes build/"
+
+demo:
+	@scripts/install-deps
+	@scripts/build release -DWELKIN_BUILD_TESTS=OFF -DWELKIN_BUILD_BENCH=OFF
+	@scripts/demo
+
+test:
+	@scripts/install-deps --test
+	@scripts/build release -DWELKIN_BUILD_TESTS=ON -DWELKIN_BUILD_BENCH=ON
+	@scripts/test release --fuzz
+
+bench:
+	@scripts/install-deps
+	@scripts/build release -DWELKIN_BUILD_TESTS=OFF -DWELKIN_BUILD_BENCH=ON
+	@scripts/bench
+
+asan:
+	@scripts/install-deps --test
+	@scripts/build asan
+	@scripts/test asan
+
+fuzz:
+	@scripts/install-deps --test
+	@scripts/fuzz $(FUZZ_SECONDS)
+
+format:
+	@scripts/install-deps --dev
+	@scripts/format
+
+lint:
+	@scripts/install-deps --test --dev
+	@scripts/build release -DWELKIN_BUILD_TESTS=ON -DWELKIN_BUILD_BENCH=ON
+	@scripts/lint
+
+clean:
+	@rm -rf build
