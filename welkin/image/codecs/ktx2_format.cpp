@@ -1,0 +1,91 @@
+#include <welkin/image/codecs/ktx2_format.h>
+
+#include <bit>
+#include <numeric>
+
+namespace welkin {
+namespace {
+
+using Component = PixelLayout::Component;
+
+// Those we write come first, in the order of PixelFormat.
+constexpr std::array<Ktx2Format, 7> formats = {{
+    {97, 2, {Component::half, 4}, "RGBA16F"},
+    {109, 4, {Component::float32, 4}, "RGBA32F"},
+    {123, 4, {Component::shared_exponent, 3}, "E5B9G9R9"},
+    {83, 2, {Component::half, 2}, "RG16F"},
+    {103, 4, {Component::float32, 2}, "RG32F"},
+    {90, 2, {Component::half, 3}, "RGB16F"},
+    {106, 4, {Component::float32, 3}, "RGB32F"},
+}};
+
+constexpr std::uint32_t model_rgbsda = 1, primaries_bt709 = 1, transfer_linear = 1;
+constexpr std::uint32_t block_version = 2, block_header_bytes = 24, sample_bytes = 16;
+constexpr std::uint32_t qualifier_exponent = 0x20, qualifier_signed = 0x40, qualifier_float = 0x80;
+constexpr std::array<std::uint32_t, 4> channel_ids = {0, 1, 2, 15};  // red, green, blue, alpha
+
+struct Sample {
+  std::uint32_t bit_offset, bit_length, channel, lower, upper;
+};
+
+// Each float channel is one sample whose nominal range is -1 to 1.
+std::vector<Sample> float_samples(PixelLayout layout) {
+  const std::uint32_t bits = layout.component == Component::half ? 16 : 32;
+  std::vector<Sample> samples;
+  for (std::uint32_t c = 0; c < static_cast<std::uint32_t>(layout.channels); ++c) {
+    samples.push_back({c * bits, bits, channel_ids[c] | qualifier_signed | qualifier_float,
+                       std::bit_cast<std::uint32_t>(-1.0f), std::bit_cast<std::uint32_t>(1.0f)});
+  }
+  return samples;
+}
+
+// Each channel is its 9 mantissa bits followed by the exponent bits that all three share. For a mantissa, the
+// specification's own example gives 8448 as the upper end; for an exponent, lower is the bias and upper the
+// largest.
+std::vector<Sample> shared_exponent_samples() {
+  std::vector<Sample> samples;
+  for (std::uint32_t c = 0; c < 3; ++c) {
+    samples.push_back({9 * c, 9, channel_ids[c], 0, 8448});
+    samples.push_back({27, 5, channel_ids[c] | qualifier_exponent, 15, 31});
+  }
+  return samples;
+}
+
+}  // namespace
+
+const Ktx2Format& ktx2_format(PixelFormat format) { return formats.at(static_cast<std::size_t>(format)); }
+
+const Ktx2Format* find_ktx2_format(std::uint32_t vk_format) {
+  for (const Ktx2Format& format : formats) {
+    if (format.vk_format == vk_format) return &format;
+  }
+  return nullptr;
+}
+
+std::size_t ktx2_level_alignment(PixelLayout layout, bool supercompressed) {
+  return supercompressed ? 1 : std::lcm(layout.bytes(), std::size_t{4});
+}
+
+std::vector<std::uint32_t> ktx2_data_format_descriptor(PixelLayout layout) {
+  const std::vector<Sample> samples =
+      layout.component == Component::shared_exponent ? shared_exponent_samples() : float_samples(layout);
+  const auto block_bytes = static_cast<std::uint32_t>(block_header_bytes + sample_bytes * samples.size());
+  std::vector<std::uint32_t> words = {
+      4 + block_bytes,  // dfdTotalSize
+      0,                // vendor Khronos, basic descriptor
+      block_version | (block_bytes << 16),
+      model_rgbsda | (primaries_bt709 << 8) | (transfer_linear << 16),  // flags 0: alpha is straight
+      0,                                                                // a texel block of 1 x 1 x 1 x 1
+      static_cast<std::uint32_t>(layout.bytes()),                       // bytesPlane0; one plane only
+      0,
+  };
+  for (const Sample& sample : samples) {
+    words.push_back(sample.bit_offset | ((sample.bit_length - 1) << 16) | (sample.channel << 24));
+    words.push_back(0);  // sample position
+    words.push_back(sample.lower);
+    words.push_back(sample.upper);
+  }
+  return words;
+}
+
+}  // namespace welkin

@@ -1,0 +1,169 @@
+#include <locale>
+#include <sstream>
+#include <vector>
+
+#include <zstd.h>
+
+#include <welkin/error.h>
+#include <welkin/image/codecs/ktx2.h>
+#include <welkin/image/codecs/ktx2_format.h>
+#include <welkin/image/codecs/little_endian.h>
+#include <welkin/image/codecs/texture_source.h>
+
+namespace welkin {
+namespace {
+
+void check_options(const Ktx2Options& options) {
+  if (options.zstd_level < 0 || options.zstd_level > 22) throw Error("the zstd level must be between 0 and 22");
+  for (const auto& [key, value] : options.keys) {
+    const std::string prefix = key.substr(0, 3);
+    if (key.empty() || prefix == "KTX" || prefix == "ktx" || key == ktx2_scale_key) {
+      throw Error("the KTX2 key '" + key + "' is empty or reserved");
+    }
+    if ((key + value).find('\0') != std::string::npos) throw Error("the KTX2 key '" + key + "' holds a zero byte");
+  }
+}
+
+std::string decimal(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(17);
+  text << value;
+  return text.str();
+}
+
+void pad_to(std::vector<std::uint8_t>& bytes, std::size_t alignment) {
+  while (bytes.size() % alignment != 0) bytes.push_back(0);
+}
+
+// Entries sorted by key (std::map orders by bytes, which for UTF-8 is the order of code points), each with
+// its length, the key, a zero byte, the text, a zero byte, and zeros up to a multiple of 4.
+std::vector<std::uint8_t> key_value_data(const Ktx2Options& options, double stored_scale) {
+  std::map<std::string, std::string> entries = options.keys;
+  entries["KTXorientation"] = "rd";
+  entries["KTXwriter"] = "welkin 0.1";
+  entries[std::string(ktx2_scale_key)] = decimal(stored_scale);
+  std::vector<std::uint8_t> bytes;
+  for (const auto& [key, value] : entries) {
+    put_u32(bytes, static_cast<std::uint32_t>(key.size() + 1 + value.size() + 1));
+    bytes.insert(bytes.end(), key.begin(), key.end());
+    bytes.push_back(0);
+    bytes.insert(bytes.end(), value.begin(), value.end());
+    bytes.push_back(0);
+    pad_to(bytes, 4);
+  }
+  return bytes;
+}
+
+std::vector<std::uint8_t> compressed(const std::vector<std::uint8_t>& bytes, int zstd_level) {
+  std::vector<std::uint8_t> out(ZSTD_compressBound(bytes.size()));
+  const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), zstd_level);
+  if (ZSTD_isError(size) != 0) throw Error(std::string("zstd cannot compress: ") + ZSTD_getErrorName(size));
+  out.resize(size);
+  return out;
+}
+
+struct EncodedLevel {
+  std::vector<std::uint8_t> bytes;
+  std::size_t plain_size = 0;
+};
+
+EncodedLevel encode_level(std::span<const float> texels, int channels, double stored_scale, const Ktx2Options& options,
+                          std::size_t& clipped) {
+  const std::size_t pixels = texels.size() / static_cast<std::size_t>(channels);
+  EncodedLevel level;
+  level.plain_size = pixels * pixel_layout(options.format).bytes();
+  level.bytes.resize(level.plain_size);
+  const auto factor = static_cast<float>(1 / stored_scale);
+  clipped += encode_pixels(texels, channels, factor, options.format, level.bytes);
+  if (options.zstd_level > 0) level.bytes = compressed(level.bytes, options.zstd_level);
+  return level;
+}
+
+// Header and level index. The order in the file is: header, level index, data format descriptor, key/value
+// data, levels from the smallest to the largest; supercompression global data there is none.
+struct Layout {
+  std::size_t descriptor_offset = 0, descriptor_size = 0;
+  std::size_t keys_offset = 0, keys_size = 0;
+  std::vector<std::size_t> level_offsets;
+  std::size_t file_size = 0;
+};
+
+Layout lay_out(std::size_t descriptor_size, std::size_t keys_size, const std::vector<EncodedLevel>& levels,
+               std::size_t alignment) {
+  Layout layout;
+  layout.descriptor_offset = ktx2_header_size + ktx2_level_entry_size * levels.size();
+  layout.descriptor_size = descriptor_size;
+  layout.keys_offset = layout.descriptor_offset + descriptor_size;
+  layout.keys_size = keys_size;
+  layout.file_size = layout.keys_offset + keys_size;
+  layout.level_offsets.resize(levels.size());
+  for (std::size_t k = levels.size(); k-- > 0;) {
+    layout.level_offsets[k] = (layout.file_size + alignment - 1) / alignment * alignment;
+    layout.file_size = layout.level_offsets[k] + levels[k].bytes.size();
+  }
+  return layout;
+}
+
+void put_header(std::vector<std::uint8_t>& bytes, const TextureSource& source, const Ktx2Options& options,
+                const Layout& layout) {
+  const Ktx2Format& format = ktx2_format(options.format);
+  bytes.insert(bytes.end(), ktx2_identifier.begin(), ktx2_identifier.end());
+  put_u32(bytes, format.vk_format);
+  put_u32(bytes, format.type_size);
+  put_u32(bytes, static_cast<std::uint32_t>(source.width));
+  put_u32(bytes, static_cast<std::uint32_t>(source.height));
+  put_u32(bytes, 0);  // depth: not a 3-D texture
+  put_u32(bytes, 0);  // layers: not an array
+  put_u32(bytes, static_cast<std::uint32_t>(source.faces));
+  put_u32(bytes, static_cast<std::uint32_t>(source.levels.size()));
+  put_u32(bytes, options.zstd_level > 0 ? ktx2_scheme_zstd : ktx2_scheme_none);
+  put_u32(bytes, static_cast<std::uint32_t>(layout.descriptor_offset));
+  put_u32(bytes, static_cast<std::uint32_t>(layout.descriptor_size));
+  put_u32(bytes, static_cast<std::uint32_t>(layout.keys_offset));
+  put_u32(bytes, static_cast<std::uint32_t>(layout.keys_size));
+  put_u64(bytes, 0);
+  put_u64(bytes, 0);
+}
+
+EncodedTexture encode(const TextureSource& source, const Ktx2Options& options) {
+  check_options(options);
+  EncodedTexture texture;
+  texture.stored_scale = texture_scale(source, options.format, options.range, options.stored_scale);
+  std::vector<EncodedLevel> levels;
+  for (const auto texels : source.levels) {
+    levels.push_back(encode_level(texels, source.channels, texture.stored_scale, options, texture.clipped));
+  }
+  const PixelLayout pixel = pixel_layout(options.format);
+  const std::vector<std::uint32_t> descriptor = ktx2_data_format_descriptor(pixel);
+  const std::vector<std::uint8_t> keys = key_value_data(options, texture.stored_scale);
+  const Layout layout =
+      lay_out(4 * descriptor.size(), keys.size(), levels, ktx2_level_alignment(pixel, options.zstd_level > 0));
+  std::vector<std::uint8_t>& bytes = texture.bytes;
+  bytes.reserve(layout.file_size);
+  put_header(bytes, source, options, layout);
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    put_u64(bytes, layout.level_offsets[k]);
+    put_u64(bytes, levels[k].bytes.size());
+    put_u64(bytes, levels[k].plain_size);
+  }
+  for (const std::uint32_t word : descriptor) put_u32(bytes, word);
+  bytes.insert(bytes.end(), keys.begin(), keys.end());
+  for (std::size_t k = levels.size(); k-- > 0;) {
+    bytes.resize(layout.level_offsets[k]);  // padding
+    bytes.insert(bytes.end(), levels[k].bytes.begin(), levels[k].bytes.end());
+  }
+  return texture;
+}
+
+}  // namespace
+
+EncodedTexture encode_ktx2(const CubeMips& cube, const Ktx2Options& options) {
+  return encode(texture_source(cube), options);
+}
+
+EncodedTexture encode_ktx2(const Image& image, const Ktx2Options& options) {
+  return encode(texture_source(image), options);
+}
+
+}  // namespace welkin
