@@ -99,9 +99,7 @@ std::string module_of(const std::string& path) {
   return second == std::string::npos ? "" : path.substr(first + 1, second - first - 1);
 }
 
-bool starts_with(const std::string& text, const std::string& prefix) {
-  return text.rfind(prefix, 0) == 0;
-}
+bool starts_with(const std::string& text, const std::string& prefix) { return text.rfind(prefix, 0) == 0; }
 
 // Whether `user` may include `used`, by the transitive closure of the table.
 bool may_include(const std::string& user, const std::string& used) {
