@@ -82,7 +82,8 @@ MapPoint paraboloid_point(int size, Vec3 d) {
 }  // namespace
 
 std::string_view mapping_name(Mapping mapping) {
-  constexpr std::string_view names[] = {"equirectangular", "cube", "dual-paraboloid", "mirror-ball", "octahedral"};
+  constexpr std::string_view names[] = {"equirectangular", "cube", "dual-paraboloid", "mirror-ball",
+                                        "octahedral"};
   return names[static_cast<int>(mapping)];
 }
 
@@ -122,7 +123,8 @@ void check_map_shape(MapShape shape) {
   if (mapping == Mapping::dual_paraboloid && width != 2 * height) {
     throw Error("a " + name + " map must be twice as wide as high, not " + size);
   }
-  if (mapping == Mapping::cube && height != 6 * width) throw Error("a cube must be N x 6N texels, not " + size);
+  if (mapping == Mapping::cube && height != 6 * width)
+    throw Error("a cube must be N x 6N texels, not " + size);
 }
 
 MapPoint map_point(MapShape shape, Vec3 direction) {
@@ -144,7 +146,8 @@ MapPoint map_point(MapShape shape, Vec3 direction) {
 Vec3 map_texel_direction(MapShape shape, int x, int y, double fx, double fy) {
   const int size = shape.height;
   switch (shape.mapping) {
-    case Mapping::equirectangular: return equirect_direction({(x + fx) / shape.width, (y + fy) / shape.height});
+    case Mapping::equirectangular:
+      return equirect_direction({(x + fx) / shape.width, (y + fy) / shape.height});
     case Mapping::cube: {
       const int n = shape.width;
       return cube_direction({y / n, 2 * (x + fx) / n - 1, 2 * (y % n + fy) / n - 1});

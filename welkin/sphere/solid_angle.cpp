@@ -70,7 +70,8 @@ double disc_box(Box box, bool stereographic) {
     if (clip_to_disc(edge)) inside[count++] = edge;
   }
   const double rim = stereographic ? 1 : 2;
-  if (count == 0) return box.a0 < 0 && box.a1 > 0 && box.b0 < 0 && box.b1 > 0 ? rim * 2 * std::numbers::pi : 0;
+  if (count == 0)
+    return box.a0 < 0 && box.a1 > 0 && box.b0 < 0 && box.b1 > 0 ? rim * 2 * std::numbers::pi : 0;
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Segment s = inside[i], next = inside[(i + 1) % count];
@@ -136,7 +137,8 @@ double octahedral_box(Box box) {
     for (double sv : {-1.0, 1.0}) {
       if (sv * box.b0 <= 0 && sv * box.b1 <= 0) continue;
       const Polygon quadrant = clip(clip(corners, su, 0, 0), 0, sv, 0);
-      sum += face_polygon(clip(quadrant, -su, -sv, 1), true) + face_polygon(clip(quadrant, su, sv, -1), false);
+      sum +=
+          face_polygon(clip(quadrant, -su, -sv, 1), true) + face_polygon(clip(quadrant, su, sv, -1), false);
     }
   }
   return sum;
