@@ -15,9 +15,8 @@ struct LoadedImage {
   std::vector<std::string>
       warnings;        ///< one line each, without the file name: what was dropped, cropped, guessed
   std::string format;  ///< for people, e.g. "Radiance HDR", "OpenEXR", "KTX2 RGBA16F"
-  /// The file's numbers are the true ones times this power of two (a file whose format could not hold its
-  /// range names it in its metadata). The pixels here are as stored: divide by stored_scale for the true
-  /// values.
+  /// true value = pixel * stored_scale. 1 from every reader of today: where a file names a scale that was divided out
+  /// so that its format could hold the range, the reader multiplies it back in.
   double stored_scale = 1;
 
   bool is_cube() const { return !cube.empty(); }

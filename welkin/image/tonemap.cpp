@@ -29,8 +29,8 @@ double reinhard_gain(double l, double white) {
   return std::isfinite(l) ? (1 + l / (white * white)) / (1 + l) : 1;
 }
 
-// sRGB bytes by table: index i stands for the linear value (i / 4095)^2, close enough together that no byte
-// is skipped (the steepest part, 12.92 per unit, has steps of 6e-8 at black and 5e-4 at white).
+// sRGB bytes by table: index i stands for the linear value (i / 4095)^2. One index is at most 0.1 of a byte step, so the
+// result is the nearest byte but for values within 0.05 of a step from the middle between two.
 std::array<std::uint8_t, 4096> make_byte_table() {
   std::array<std::uint8_t, 4096> table{};
   for (int i = 0; i < 4096; ++i) {

@@ -70,7 +70,7 @@ ColourMatrix rgb_to_rec709(const Chromaticities& from) {
   return result;
 }
 
-void apply(const ColourMatrix& m, float* triple) {
+void transform_colour(const ColourMatrix& m, float* triple) {
   const double a = triple[0], b = triple[1], c = triple[2];
   for (int i = 0; i < 3; ++i) {
     triple[i] = static_cast<float>(m[3 * i] * a + m[3 * i + 1] * b + m[3 * i + 2] * c);

@@ -25,6 +25,6 @@ ColourMatrix xyz_to_rec709();
 ColourMatrix rgb_to_rec709(const Chromaticities& from);
 
 /// m applied to an RGB or XYZ triple in place.
-void apply(const ColourMatrix& m, float* triple);
+void transform_colour(const ColourMatrix& m, float* triple);
 
 }  // namespace welkin

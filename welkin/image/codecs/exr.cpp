@@ -107,12 +107,8 @@ ColourChannels choose_channels(const Imf::ChannelList& channels, std::string_vie
   return {ColourKind::gray, {list, "", ""}};
 }
 
-std::int64_t width_of(const Imath::Box2i& box) {
-  return std::int64_t{box.max.x} - box.min.x + 1;
-}
-std::int64_t height_of(const Imath::Box2i& box) {
-  return std::int64_t{box.max.y} - box.min.y + 1;
-}
+std::int64_t width_of(const Imath::Box2i& box) { return std::int64_t{box.max.x} - box.min.x + 1; }
+std::int64_t height_of(const Imath::Box2i& box) { return std::int64_t{box.max.y} - box.min.y + 1; }
 
 // What the library will allocate follows from the header alone, so the header has to be plausible first.
 void check_header(const Imf::Header& header, std::string_view name, std::size_t byte_count) {
@@ -247,7 +243,7 @@ void convert_colour(const Imf::Header& header, const ColourChannels& colour, Ima
     return;
   }
   loaded.warnings.push_back("has primaries other than Rec.709; the colours are converted");
-  for (std::size_t i = 0; i < image.pixels.size(); i += 3) apply(matrix, image.pixels.data() + i);
+  for (std::size_t i = 0; i < image.pixels.size(); i += 3) transform_colour(matrix, image.pixels.data() + i);
 }
 
 Image crop_to_display(Image&& data, const Imf::Header& header, LoadedImage& loaded) {
@@ -282,6 +278,12 @@ int first_flat_part(Imf::MultiPartInputFile& file, std::string_view name, Loaded
   throw Error(name, "holds deep images only; flatten it first");
 }
 
+void undo_stored_scale(const Imf::Header& header, Image& image) {
+  const auto* scale = header.findTypedAttribute<Imf::DoubleAttribute>("welkinStoredScale");
+  if (!scale || !(scale->value() > 0) || !std::isfinite(scale->value())) return;
+  for (float& value : image.pixels) value *= static_cast<float>(scale->value());
+}
+
 LoadedImage decode(std::span<const std::uint8_t> bytes, std::string_view name) {
   Imf::setGlobalThreadCount(0);
   MemoryInput stream(bytes);
@@ -295,8 +297,7 @@ LoadedImage decode(std::span<const std::uint8_t> bytes, std::string_view name) {
   Image image = read_data_window(file, part, colour);
   convert_colour(header, colour, image, loaded);
   loaded.flat = crop_to_display(std::move(image), header, loaded);
-  const auto* scale = header.findTypedAttribute<Imf::DoubleAttribute>("welkinStoredScale");
-  if (scale && scale->value() > 0 && std::isfinite(scale->value())) loaded.stored_scale = scale->value();
+  undo_stored_scale(header, loaded.flat);
   return loaded;
 }
 

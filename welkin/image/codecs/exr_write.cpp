@@ -38,11 +38,19 @@ class MemoryOutput : public Imf::OStream {
   std::size_t position_ = 0;
 };
 
-std::vector<half> to_halves(const std::vector<float>& values) {
+std::vector<half> to_halves(const std::vector<float>& values, float factor) {
   std::vector<half> result(values.size());
-  std::transform(values.begin(), values.end(), result.begin(), [](float value) {
-    return half(std::isnan(value) ? value : std::clamp(value, -float{HALF_MAX}, float{HALF_MAX}));
+  std::transform(values.begin(), values.end(), result.begin(), [factor](float value) {
+    const float scaled = value * factor;
+    return half(std::isnan(scaled) ? scaled : std::clamp(scaled, -float{HALF_MAX}, float{HALF_MAX}));
   });
+  return result;
+}
+
+std::vector<float> scaled_by(const std::vector<float>& values, float factor) {
+  std::vector<float> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(),
+                 [factor](float value) { return value * factor; });
   return result;
 }
 
@@ -82,11 +90,12 @@ std::vector<std::uint8_t> encode_exr(const Image& image, const ExrOptions& optio
     }
     if (options.stored_scale != 1)
       header.insert("welkinStoredScale", Imf::DoubleAttribute(options.stored_scale));
+    const auto factor = static_cast<float>(1 / options.stored_scale);
     MemoryOutput stream;
     if (halves) {
-      write_pixels(stream, header, image, type, to_halves(image.pixels).data(), sizeof(half));
+      write_pixels(stream, header, image, type, to_halves(image.pixels, factor).data(), sizeof(half));
     } else {
-      write_pixels(stream, header, image, type, image.pixels.data(), sizeof(float));
+      write_pixels(stream, header, image, type, scaled_by(image.pixels, factor).data(), sizeof(float));
     }
     return std::move(stream.bytes);
   } catch (const std::bad_alloc&) {

@@ -270,7 +270,7 @@ void store_scan_line(const Header& header, const ScaleTable& scales, std::span<c
     pixel[0] = static_cast<float>(r[i]) * scale[0];
     pixel[1] = static_cast<float>(g[i]) * scale[1];
     pixel[2] = static_cast<float>(b[i]) * scale[2];
-    if (header.xyz) apply(to_rec709, pixel);
+    if (header.xyz) transform_colour(to_rec709, pixel);
   }
 }
 
