@@ -1,0 +1,7 @@
+# The built-in environments; paths are relative to welkin/envmap.
+set(WELKIN_SKY_SOURCES
+  sky/daylight.cpp
+  sky/disc_coverage.cpp
+  sky/sky.cpp
+  sky/sky_spec.cpp
+  sky/studio.cpp)
