@@ -1,0 +1,24 @@
+#pragma once
+#include <welkin/envmap/zonal_kernel.h>
+#include <welkin/sphere/vec3.h>
+
+namespace welkin {
+
+/// A rectangle in (theta, phi) on the sphere: one texel of an equirectangular map.
+struct SpherePatch {
+  double theta0 = 0, theta1 = 0, phi0 = 0, phi1 = 0;
+};
+
+/// The patch of texel (x, y) of a width x height map.
+SpherePatch equirect_patch(int width, int height, int x, int y);
+
+/// How many Gauss-Legendre nodes a side integrate a function over an interval of half width h to a relative error of
+/// about 1e-6, when its nearest complex singularity lies at distance s: the error falls as rho^(-2n) with
+/// rho = s/h + sqrt((s/h)^2 + 1), the Bernstein ellipse through that singularity (Trefethen 2008, theorem 4.5).
+int patch_nodes(double singularity_distance, double half_width);
+
+/// Integral of K(angle to direction) over the patch, to a relative error of about 1e-6, however narrow K is. With
+/// near_angle > 0, of the kernel's core alone (see core_share in zonal_kernel.h).
+double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& patch, double near_angle = 0);
+
+}  // namespace welkin
