@@ -5,12 +5,8 @@
 #include <cstring>
 #include <numbers>
 
-// The hot loops are compiled for several instruction sets and picked at run time; every version runs the same code.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(WELKIN_NO_TARGET_CLONES)
-#define WELKIN_TARGET_CLONES __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
-#else
-#define WELKIN_TARGET_CLONES
-#endif
+#include <welkin/parallel/target_clones.h>
+
 #define WELKIN_INLINE inline __attribute__((always_inline))
 
 namespace welkin::legendre {
