@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <welkin/error.h>
-#include <welkin/parallel/parallel_for.h>
 #include <welkin/sphere/cube.h>
 #include <welkin/sphere/equirect.h>
 
@@ -206,26 +205,6 @@ Cube cube_from_sphere_map(SphereMap map) {
   cube.channels = map.image.channels;
   cube.texels = std::move(map.image.pixels);
   return cube;
-}
-
-std::vector<double> map_energy(const SphereMap& map) {
-  const MapShape shape = map.shape();
-  const std::size_t channels = static_cast<std::size_t>(map.image.channels);
-  const auto add_rows = [&](std::vector<double>& sum, std::size_t begin, std::size_t end) {
-    sum.assign(channels, 0);
-    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      for (int x = 0; x < shape.width; ++x) {
-        const double solid_angle = map_texel_solid_angle(shape, x, y);
-        for (std::size_t c = 0; c < channels; ++c) sum[c] += solid_angle * map.image.at(x, y)[c];
-      }
-    }
-  };
-  std::vector<double> total(channels);
-  for (const auto& part :
-       parallel_partials<std::vector<double>>(static_cast<std::size_t>(shape.height), 16, add_rows)) {
-    for (std::size_t c = 0; c < channels; ++c) total[c] += part[c];
-  }
-  return total;
 }
 
 }  // namespace welkin

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <welkin/image/image.h>
 #include <welkin/sphere/vec3.h>
@@ -72,6 +73,9 @@ bool map_covers(MapShape shape, int x, int y, double fx = 0.5, double fy = 0.5);
 /// (solid_angle.cpp). 0 for a texel outside the discs. All texels together give 4 pi.
 double map_texel_solid_angle(MapShape shape, int x, int y);
 
+/// The same for all texels of row y, faster; out gets shape.width values.
+void map_row_solid_angles(MapShape shape, int y, std::vector<double>& out);
+
 /// Solid angle per unit of texel area at a point of the sphere (sr per texel), the derivative of the above.
 double map_density(MapShape shape, Vec3 unit_direction);
 
@@ -90,9 +94,5 @@ SphereMap make_sphere_map(MapShape shape, int channels = 3);
 SphereMap sphere_map_from_cube(Cube cube);
 /// Needs map.mapping == Mapping::cube.
 Cube cube_from_sphere_map(SphereMap map);
-
-/// Integral of the map over the sphere, per channel (radiance times sr), with exact texel solid angles.
-/// out.size() == channels; the same on any number of threads.
-std::vector<double> map_energy(const SphereMap& map);
 
 }  // namespace welkin

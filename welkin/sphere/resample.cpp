@@ -73,13 +73,14 @@ class PatchMean {
       : source_(source), density_(density), target_(target) {
     const double source_texels = static_cast<double>(source.shape.width) * source.shape.height;
     const double ratio = std::sqrt(source_texels / target.width / target.height);
+    middle_ = target.mapping == Mapping::dual_paraboloid ? target.height : target.width;
     max_depth_ = 4 + std::max(0, static_cast<int>(std::ceil(std::log2(ratio))));
   }
 
   Sum operator()(int x, int y) {
     sum_ = {};
     weight_ = 0;
-    gather(x, y, {0, 0}, 1, 0);
+    if (!add_whole(x, y)) gather(x, y, {0, 0}, 1, 0);
     if (weight_ <= 0) add_point(map_point(source_.shape, map_texel_direction(target_, x, y)), 1);
     for (double& value : sum_) value /= weight_;
     return sum_;
@@ -87,6 +88,40 @@ class PatchMean {
 
  private:
   static constexpr double flat_enough = 0.05;
+
+  // The whole texel at once, with the corners that it shares with its neighbours looked up.
+  bool add_whole(int x, int y) {
+    if (y != row_) prepare_row(y);
+    for (int k = 0; k < 4; ++k) {
+      if (!map_covers(target_, x, y, k % 2, k / 2)) return false;
+    }
+    const auto left = static_cast<std::size_t>(x + (x >= middle_ ? 1 : 0));
+    const MapPoint centre = map_point(source_.shape, map_texel_direction(target_, x, y));
+    return add_quad({above_[left], above_[left + 1], below_[left + 1], below_[left]}, centre, 1);
+  }
+
+  // Corners along the upper and lower sides of a row of target texels. The two squares of a dual paraboloid do not
+  // share theirs: corner `middle_` is there twice.
+  void prepare_row(int y) {
+    const int face_height = target_.mapping == Mapping::cube ? target_.width : target_.height;
+    if (y == row_ + 1 && y % face_height != 0) {
+      above_.swap(below_);
+    } else {
+      corner_row(y, 0, above_);
+    }
+    corner_row(y, 1, below_);
+    row_ = y;
+  }
+
+  void corner_row(int y, double fy, std::vector<MapPoint>& corners) const {
+    corners.clear();
+    for (int x = 0; x < target_.width; ++x) {
+      corners.push_back(map_point(source_.shape, map_texel_direction(target_, x, y, 0, fy)));
+      if (x + 1 == middle_ || x + 1 == target_.width) {
+        corners.push_back(map_point(source_.shape, map_texel_direction(target_, x, y, 1, fy)));
+      }
+    }
+  }
 
   void gather(int x, int y, GridPoint corner, double step, int depth) {
     const double fx[] = {corner.x, corner.x + step, corner.x + step, corner.x};
@@ -174,7 +209,9 @@ class PatchMean {
   const Source& source_;
   const DensityTable& density_;
   MapShape target_;
-  int max_depth_;
+  int middle_, max_depth_;
+  int row_ = -2;
+  std::vector<MapPoint> above_, below_;
   CellCoverage coverage_;
   Sum sum_{};
   double weight_ = 0;
@@ -189,7 +226,8 @@ double map_spacing(MapShape shape, Vec3 d) {
     case Mapping::cube: {
       const double x2 = d.x * d.x, y2 = d.y * d.y, z2 = d.z * d.z;
       const double sum8 = x2 * x2 * x2 * x2 + y2 * y2 * y2 * y2 + z2 * z2 * z2 * z2;
-      return 2.0 / shape.width * std::pow(sum8, 1.5 / 8);
+      const double root8 = std::sqrt(std::sqrt(std::sqrt(sum8)));
+      return 2.0 / shape.width * root8 * std::sqrt(root8);  // (x^8 + y^8 + z^8)^(3/16)
     }
     case Mapping::dual_paraboloid: return 2 / n * (1 + std::sqrt(d.z * d.z + 0.01));
     case Mapping::mirror_ball: return 4 / n / std::sqrt((1 + d.z) / 2 + 1 / n);
@@ -224,10 +262,11 @@ bool interpolate(const Source& source, const DirectionIndex& index, Vec3 directi
   return true;
 }
 
-// How much of the interpolation to use: none up to equal texel sizes, all of it from twice as fine up.
+// How much of the interpolation to use: none while the target's texels are wider than 4/5 of the source's, all of it
+// from twice as fine up.
 double smooth_share(MapShape source, MapShape target, Vec3 direction) {
   const double ratio = map_spacing(source, direction) / map_spacing(target, direction);
-  const double t = std::clamp(ratio - 1, 0.0, 1.0);
+  const double t = std::clamp((ratio - 1.25) / 0.75, 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
@@ -263,27 +302,14 @@ void resample_rows(const Source& source, const DensityTable& density, const Dire
   }
 }
 
-// A factor far from 1 can only come from a channel whose energy nearly cancels (negative values): leave that alone.
-void put_energy_back(const std::vector<double>& wanted, SphereMap& map, bool apply, ResampleReport* report) {
-  const std::vector<double> found = map_energy(map);
-  std::vector<float> factor(wanted.size(), 1.0f);
-  for (std::size_t c = 0; c < wanted.size(); ++c) {
-    const double ratio = wanted[c] != 0 ? found[c] / wanted[c] : 1;
-    if (report != nullptr) report->raw_energy_ratio.push_back(ratio);
-    if (apply && ratio > 0.5 && ratio < 2) factor[c] = static_cast<float>(1 / ratio);
-  }
-  const std::size_t row = static_cast<std::size_t>(map.image.width) * wanted.size();
-  parallel_for(static_cast<std::size_t>(map.image.height), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin * row; i < end * row; ++i) map.image.pixels[i] *= factor[i % wanted.size()];
-  });
-}
-
-std::vector<double> source_energy(const Source& source) {
+std::vector<double> energy(const Source& source) {
   std::vector<double> total(static_cast<std::size_t>(source.channels));
   const auto add_rows = [&](Sum& sum, std::size_t begin, std::size_t end) {
+    std::vector<double> solid_angles;
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      map_row_solid_angles(source.shape, y, solid_angles);
       for (int x = 0; x < source.shape.width; ++x) {
-        const double solid_angle = map_texel_solid_angle(source.shape, x, y);
+        const double solid_angle = solid_angles[static_cast<std::size_t>(x)];
         for (int c = 0; c < source.channels; ++c) {
           sum[static_cast<std::size_t>(c)] += solid_angle * source.at(x, y)[c];
         }
@@ -295,6 +321,21 @@ std::vector<double> source_energy(const Source& source) {
     for (std::size_t c = 0; c < total.size(); ++c) total[c] += part[c];
   }
   return total;
+}
+
+// A factor far from 1 can only come from a channel whose energy nearly cancels (negative values): leave that alone.
+void put_energy_back(const std::vector<double>& wanted, SphereMap& map, bool apply, ResampleReport* report) {
+  const std::vector<double> found = energy({map.shape(), map.image.channels, map.image.pixels.data()});
+  std::vector<float> factor(wanted.size(), 1.0f);
+  for (std::size_t c = 0; c < wanted.size(); ++c) {
+    const double ratio = wanted[c] != 0 ? found[c] / wanted[c] : 1;
+    if (report != nullptr) report->raw_energy_ratio.push_back(ratio);
+    if (apply && ratio > 0.5 && ratio < 2) factor[c] = static_cast<float>(1 / ratio);
+  }
+  const std::size_t row = static_cast<std::size_t>(map.image.width) * wanted.size();
+  parallel_for(static_cast<std::size_t>(map.image.height), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin * row; i < end * row; ++i) map.image.pixels[i] *= factor[i % wanted.size()];
+  });
 }
 
 SphereMap resample(const Source& source, MapShape target, const ResampleOptions& options,
@@ -316,12 +357,16 @@ SphereMap resample(const Source& source, MapShape target, const ResampleOptions&
     resample_rows(source, density, index.get(), static_cast<int>(begin), static_cast<int>(end), result);
   });
   if (options.keep_energy || report != nullptr) {
-    put_energy_back(source_energy(source), result, options.keep_energy, report);
+    put_energy_back(energy(source), result, options.keep_energy, report);
   }
   return result;
 }
 
 }  // namespace
+
+std::vector<double> map_energy(const SphereMap& map) {
+  return energy({map.shape(), map.image.channels, map.image.pixels.data()});
+}
 
 SphereMap resample(const SphereMap& source, MapShape target, const ResampleOptions& options,
                    ResampleReport* report) {

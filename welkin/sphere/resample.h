@@ -29,6 +29,10 @@ struct ResampleReport {
   std::vector<double> raw_energy_ratio;
 };
 
+/// Integral of a map over the sphere, per channel (radiance times sr), with exact texel solid angles; a vector of
+/// `channels` (1 to 4) numbers, the same on any number of threads.
+std::vector<double> map_energy(const SphereMap& map);
+
 /// `source` in another shape. Throws Error when either shape is not valid (check_map_shape) or the source has more
 /// than 4 channels. The same bytes on any number of threads.
 SphereMap resample(const SphereMap& source, MapShape target, const ResampleOptions& options = {},

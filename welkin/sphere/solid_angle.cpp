@@ -144,7 +144,30 @@ double octahedral_box(Box box) {
   return sum;
 }
 
+// cube_texel_solid_angle for a row, with each of its corners evaluated once for the two texels that meet there.
+void cube_row(int size, int y, std::vector<double>& out) {
+  const auto corner = [](double s, double t) { return std::atan2(s * t, std::sqrt(1 + s * s + t * t)); };
+  const double t0 = 2.0 * y / size - 1, t1 = 2.0 * (y + 1) / size - 1;
+  double before = corner(-1, t1) - corner(-1, t0);
+  for (int x = 0; x < size; ++x) {
+    const double s = 2.0 * (x + 1) / size - 1;
+    const double after = corner(s, t1) - corner(s, t0);
+    out[static_cast<std::size_t>(x)] = after - before;
+    before = after;
+  }
+}
+
 }  // namespace
+
+void map_row_solid_angles(MapShape shape, int y, std::vector<double>& out) {
+  if (shape.mapping == Mapping::equirectangular) {
+    out.assign(static_cast<std::size_t>(shape.width), map_texel_solid_angle(shape, 0, y));
+    return;
+  }
+  out.resize(static_cast<std::size_t>(shape.width));
+  if (shape.mapping == Mapping::cube) return cube_row(shape.width, y % shape.width, out);
+  for (int x = 0; x < shape.width; ++x) out[static_cast<std::size_t>(x)] = map_texel_solid_angle(shape, x, y);
+}
 
 double map_texel_solid_angle(MapShape shape, int x, int y) {
   const int size = shape.height;
