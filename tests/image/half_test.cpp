@@ -20,9 +20,7 @@ double half_value(std::uint16_t code) {
   return sign * std::ldexp(1024 + mantissa, exponent - 25);
 }
 
-bool is_finite(std::uint16_t code) {
-  return ((code >> 10) & 31) != 31;
-}
+bool is_finite(std::uint16_t code) { return ((code >> 10) & 31) != 31; }
 
 // Nearest even by search: the codes of positive halves are ordered like their values.
 std::uint16_t nearest_by_search(double magnitude) {

@@ -31,10 +31,11 @@ struct Ktx2Options {
   std::map<std::string, std::string> keys;
 };
 
-/// Encodes all levels of a cube (1, 2, 3 or 4 channels, see encode_pixels; alpha = 1), linear Rec.709. The
-/// values are divided by EncodedTexture::stored_scale, which the key WelkinStoredScale names (decimal text;
-/// always written): radiance = stored value * WelkinStoredScale. KTXorientation is "rd". Throws Error for an
-/// empty cube, levels that do not halve, and bad options.
+/// Encodes all levels of a cube (1, 2, 3 or 4 channels, see encode_pixels; alpha = 1), linear Rec.709. The values are
+/// divided by EncodedTexture::stored_scale; unless that is 1 the key WelkinStoredScale names it (decimal text):
+/// true value = stored value * WelkinStoredScale, and a file without the key has 1. KTXorientation is "rd". Keys that
+/// are not Khronos' own are legal, but validators remark on each of them: a file without `keys` and without a scale
+/// validates without a word. Throws Error for an empty cube, levels that do not halve, and bad options.
 EncodedTexture encode_ktx2(const CubeMips& cube, const Ktx2Options& options = {});
 
 /// The same for a flat image with one level; KTXorientation "rd" (row 0 is the top).

@@ -23,14 +23,17 @@ using Keys = std::map<std::string, std::string>;
 constexpr double zstd_bytes_per_byte = 32768;
 
 struct Header {
-  std::uint32_t vk_format = 0, width = 0, height = 0, depth = 0, layers = 0, faces = 0, levels = 0, scheme = 0;
+  std::uint32_t vk_format = 0, width = 0, height = 0, depth = 0, layers = 0, faces = 0, levels = 0,
+                scheme = 0;
   std::uint32_t descriptor_offset = 0, descriptor_size = 0, keys_offset = 0, keys_size = 0;
 };
 
 // The part [offset, offset + size) of the file, which must be inside it.
-Bytes section(Bytes bytes, std::uint64_t offset, std::uint64_t size, std::string_view name, const char* what) {
+Bytes section(Bytes bytes, std::uint64_t offset, std::uint64_t size, std::string_view name,
+              const char* what) {
   if (offset > bytes.size() || size > bytes.size() - offset) {
-    throw Error(name, std::string("the ") + what + " of this KTX2 file lies beyond its end; it is cut off or damaged");
+    throw Error(name, std::string("the ") + what +
+                          " of this KTX2 file lies beyond its end; it is cut off or damaged");
   }
   return bytes.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));
 }
@@ -70,14 +73,16 @@ const Ktx2Format& check_kind(const Header& header, std::size_t file_size, std::s
   if (header.depth != 0 || header.layers > 1 || header.height == 0) {
     throw Error(name, "only 2-D and cube KTX2 textures are read, not 1-D, 3-D or arrays");
   }
-  if (header.faces != 1 && header.faces != 6) throw Error(name, "a KTX2 file has 1 or 6 faces, this says others");
+  if (header.faces != 1 && header.faces != 6)
+    throw Error(name, "a KTX2 file has 1 or 6 faces, this says others");
   if (header.faces == 6 && header.width != header.height)
     throw Error(name, "the faces of this KTX2 cube are not square");
   const double stored_per_byte = header.scheme == ktx2_scheme_zstd ? zstd_bytes_per_byte : 1.0;
   check_image_size(name, header.width, std::int64_t{header.height} * header.faces, file_size,
                    stored_per_byte / static_cast<double>(format->layout.bytes()));
   const auto most_levels = static_cast<std::uint32_t>(std::bit_width(std::max(header.width, header.height)));
-  if (header.levels > most_levels) throw Error(name, "this KTX2 file claims more mip levels than its size has");
+  if (header.levels > most_levels)
+    throw Error(name, "this KTX2 file claims more mip levels than its size has");
   return *format;
 }
 
@@ -114,10 +119,12 @@ float stored_scale(const Keys& keys, std::string_view name) {
 // The stored bytes of a level; `plain` keeps them where they had to be decompressed.
 Bytes level_bytes(Bytes file, const Header& header, std::size_t level, std::size_t expected,
                   std::vector<std::uint8_t>& plain, std::string_view name) {
-  const Bytes index = section(file, ktx2_header_size, ktx2_level_entry_size * header.levels, name, "level index");
+  const Bytes index =
+      section(file, ktx2_header_size, ktx2_level_entry_size * header.levels, name, "level index");
   const std::size_t entry = ktx2_level_entry_size * level;
   const Bytes stored = section(file, get_u64(index, entry), get_u64(index, entry + 8), name, "image data");
-  if (get_u64(index, entry + 16) != expected || (header.scheme == ktx2_scheme_none && stored.size() != expected)) {
+  if (get_u64(index, entry + 16) != expected ||
+      (header.scheme == ktx2_scheme_none && stored.size() != expected)) {
     throw Error(name, "mip level " + std::to_string(level) + " of this KTX2 file has the wrong size");
   }
   if (header.scheme == ktx2_scheme_none) return stored;

@@ -14,13 +14,15 @@ namespace welkin {
 namespace {
 
 void check_options(const Ktx2Options& options) {
-  if (options.zstd_level < 0 || options.zstd_level > 22) throw Error("the zstd level must be between 0 and 22");
+  if (options.zstd_level < 0 || options.zstd_level > 22)
+    throw Error("the zstd level must be between 0 and 22");
   for (const auto& [key, value] : options.keys) {
     const std::string prefix = key.substr(0, 3);
     if (key.empty() || prefix == "KTX" || prefix == "ktx" || key == ktx2_scale_key) {
       throw Error("the KTX2 key '" + key + "' is empty or reserved");
     }
-    if ((key + value).find('\0') != std::string::npos) throw Error("the KTX2 key '" + key + "' holds a zero byte");
+    if ((key + value).find('\0') != std::string::npos)
+      throw Error("the KTX2 key '" + key + "' holds a zero byte");
   }
 }
 
@@ -42,7 +44,7 @@ std::vector<std::uint8_t> key_value_data(const Ktx2Options& options, double stor
   std::map<std::string, std::string> entries = options.keys;
   entries["KTXorientation"] = "rd";
   entries["KTXwriter"] = "welkin 0.1";
-  entries[std::string(ktx2_scale_key)] = decimal(stored_scale);
+  if (stored_scale != 1) entries[std::string(ktx2_scale_key)] = decimal(stored_scale);
   std::vector<std::uint8_t> bytes;
   for (const auto& [key, value] : entries) {
     put_u32(bytes, static_cast<std::uint32_t>(key.size() + 1 + value.size() + 1));
@@ -68,8 +70,8 @@ struct EncodedLevel {
   std::size_t plain_size = 0;
 };
 
-EncodedLevel encode_level(std::span<const float> texels, int channels, double stored_scale, const Ktx2Options& options,
-                          std::size_t& clipped) {
+EncodedLevel encode_level(std::span<const float> texels, int channels, double stored_scale,
+                          const Ktx2Options& options, std::size_t& clipped) {
   const std::size_t pixels = texels.size() / static_cast<std::size_t>(channels);
   EncodedLevel level;
   level.plain_size = pixels * pixel_layout(options.format).bytes();
@@ -137,8 +139,8 @@ EncodedTexture encode(const TextureSource& source, const Ktx2Options& options) {
   const PixelLayout pixel = pixel_layout(options.format);
   const std::vector<std::uint32_t> descriptor = ktx2_data_format_descriptor(pixel);
   const std::vector<std::uint8_t> keys = key_value_data(options, texture.stored_scale);
-  const Layout layout =
-      lay_out(4 * descriptor.size(), keys.size(), levels, ktx2_level_alignment(pixel, options.zstd_level > 0));
+  const Layout layout = lay_out(4 * descriptor.size(), keys.size(), levels,
+                                ktx2_level_alignment(pixel, options.zstd_level > 0));
   std::vector<std::uint8_t>& bytes = texture.bytes;
   bytes.reserve(layout.file_size);
   put_header(bytes, source, options, layout);
