@@ -22,6 +22,9 @@ struct Source {
   MapShape shape;
   int channels = 3;
   const float* pixels = nullptr;
+  Mat3 from_target;  // turns a direction of the target into the source's frame
+
+  MapPoint point(Vec3 target_direction) const { return map_point(shape, from_target * target_direction); }
 
   const float* at(int x, int y) const {
     return pixels + (static_cast<std::size_t>(y) * shape.width + x) * channels;
@@ -81,7 +84,7 @@ class PatchMean {
     sum_ = {};
     weight_ = 0;
     if (!add_whole(x, y)) gather(x, y, {0, 0}, 1, 0);
-    if (weight_ <= 0) add_point(map_point(source_.shape, map_texel_direction(target_, x, y)), 1);
+    if (weight_ <= 0) add_point(source_.point(map_texel_direction(target_, x, y)), 1);
     for (double& value : sum_) value /= weight_;
     return sum_;
   }
@@ -96,7 +99,7 @@ class PatchMean {
       if (!map_covers(target_, x, y, k % 2, k / 2)) return false;
     }
     const auto left = static_cast<std::size_t>(x + (x >= middle_ ? 1 : 0));
-    const MapPoint centre = map_point(source_.shape, map_texel_direction(target_, x, y));
+    const MapPoint centre = source_.point(map_texel_direction(target_, x, y));
     return add_quad({above_[left], above_[left + 1], below_[left + 1], below_[left]}, centre, 1);
   }
 
@@ -116,9 +119,9 @@ class PatchMean {
   void corner_row(int y, double fy, std::vector<MapPoint>& corners) const {
     corners.clear();
     for (int x = 0; x < target_.width; ++x) {
-      corners.push_back(map_point(source_.shape, map_texel_direction(target_, x, y, 0, fy)));
+      corners.push_back(source_.point(map_texel_direction(target_, x, y, 0, fy)));
       if (x + 1 == middle_ || x + 1 == target_.width) {
-        corners.push_back(map_point(source_.shape, map_texel_direction(target_, x, y, 1, fy)));
+        corners.push_back(source_.point(map_texel_direction(target_, x, y, 1, fy)));
       }
     }
   }
@@ -131,12 +134,12 @@ class PatchMean {
     for (int k = 0; k < 4; ++k) covered += map_covers(target_, x, y, fx[k], fy[k]) ? 1 : 0;
     if (covered == 0 && depth >= 2) return;
     const Vec3 direction = map_texel_direction(target_, x, y, middle.x, middle.y);
-    const MapPoint centre = map_point(source_.shape, direction);
+    const MapPoint centre = source_.point(direction);
     const double solid_angle = map_density(target_, direction) * step * step;
     if (covered == 4) {
       std::array<MapPoint, 4> points;
       for (std::size_t k = 0; k < 4; ++k) {
-        points[k] = map_point(source_.shape, map_texel_direction(target_, x, y, fx[k], fy[k]));
+        points[k] = source_.point(map_texel_direction(target_, x, y, fx[k], fy[k]));
       }
       if (add_quad(points, centre, solid_angle)) return;
     }
@@ -264,13 +267,14 @@ bool interpolate(const Source& source, const DirectionIndex& index, Vec3 directi
 
 // How much of the interpolation to use: none while the target's texels are wider than 4/5 of the source's, all of it
 // from twice as fine up.
-double smooth_share(MapShape source, MapShape target, Vec3 direction) {
-  const double ratio = map_spacing(source, direction) / map_spacing(target, direction);
+double smooth_share(const Source& source, MapShape target, Vec3 direction) {
+  const double ratio =
+      map_spacing(source.shape, source.from_target * direction) / map_spacing(target, direction);
   const double t = std::clamp((ratio - 1.25) / 0.75, 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
-bool any_magnified(MapShape source, MapShape target) {
+bool any_magnified(const Source& source, MapShape target) {
   for (int y = 0; y < target.height; ++y) {
     for (int x = 0; x < target.width; x += std::max(1, target.width / 64)) {
       if (smooth_share(source, target, map_texel_direction(target, x, y)) > 0) return true;
@@ -288,10 +292,11 @@ void resample_rows(const Source& source, const DensityTable& density, const Dire
     for (int x = 0; x < target.width; ++x) {
       if (!map_covers(target, x, y) && map_texel_solid_angle(target, x, y) <= 0) continue;
       const Vec3 direction = map_texel_direction(target, x, y);
-      double share = index != nullptr ? smooth_share(source.shape, target, direction) : 0;
+      double share = index != nullptr ? smooth_share(source, target, direction) : 0;
       Sum smooth{};
-      const double radius = kernel_radius * map_spacing(source.shape, direction);
-      if (share > 0 && !interpolate(source, *index, direction, radius, smooth)) share = 0;
+      const Vec3 wanted = source.from_target * direction;
+      const double radius = kernel_radius * map_spacing(source.shape, wanted);
+      if (share > 0 && !interpolate(source, *index, wanted, radius, smooth)) share = 0;
       const Sum box = share < 1 ? patch_mean(x, y) : Sum{};
       float* texel = result.image.at(x, y);
       for (int c = 0; c < source.channels; ++c) {
@@ -325,7 +330,7 @@ std::vector<double> energy(const Source& source) {
 
 // A factor far from 1 can only come from a channel whose energy nearly cancels (negative values): leave that alone.
 void put_energy_back(const std::vector<double>& wanted, SphereMap& map, bool apply, ResampleReport* report) {
-  const std::vector<double> found = energy({map.shape(), map.image.channels, map.image.pixels.data()});
+  const std::vector<double> found = energy({map.shape(), map.image.channels, map.image.pixels.data(), {}});
   std::vector<float> factor(wanted.size(), 1.0f);
   for (std::size_t c = 0; c < wanted.size(); ++c) {
     const double ratio = wanted[c] != 0 ? found[c] / wanted[c] : 1;
@@ -345,14 +350,15 @@ SphereMap resample(const Source& source, MapShape target, const ResampleOptions&
     throw Error("only maps of 1 to 4 channels can be resampled");
   SphereMap result = make_sphere_map(target, source.channels);
   const MapShape from = source.shape;
-  if (from.mapping == target.mapping && from.width == target.width && from.height == target.height) {
+  if (is_identity(options.orientation) && from.mapping == target.mapping && from.width == target.width &&
+      from.height == target.height) {
     std::copy_n(source.pixels, result.image.pixels.size(), result.image.pixels.begin());
     if (report != nullptr) report->raw_energy_ratio.assign(static_cast<std::size_t>(source.channels), 1.0);
     return result;
   }
   const DensityTable density(from);
   std::unique_ptr<DirectionIndex> index;
-  if (any_magnified(from, target)) index = std::make_unique<DirectionIndex>(from);
+  if (any_magnified(source, target)) index = std::make_unique<DirectionIndex>(from);
   parallel_for(static_cast<std::size_t>(target.height), 4, [&](std::size_t begin, std::size_t end) {
     resample_rows(source, density, index.get(), static_cast<int>(begin), static_cast<int>(end), result);
   });
@@ -365,23 +371,27 @@ SphereMap resample(const Source& source, MapShape target, const ResampleOptions&
 }  // namespace
 
 std::vector<double> map_energy(const SphereMap& map) {
-  return energy({map.shape(), map.image.channels, map.image.pixels.data()});
+  return energy({map.shape(), map.image.channels, map.image.pixels.data(), {}});
 }
 
 SphereMap resample(const SphereMap& source, MapShape target, const ResampleOptions& options,
                    ResampleReport* report) {
-  return resample(Source{source.shape(), source.image.channels, source.image.pixels.data()}, target, options,
-                  report);
+  return resample(Source{source.shape(), source.image.channels, source.image.pixels.data(),
+                         transposed(options.orientation)},
+                  target, options, report);
 }
 
 Cube equirect_to_cube(const Image& equirect, int size, const ResampleOptions& options) {
-  const Source source{
-      {Mapping::equirectangular, equirect.width, equirect.height}, equirect.channels, equirect.pixels.data()};
+  const Source source{{Mapping::equirectangular, equirect.width, equirect.height},
+                      equirect.channels,
+                      equirect.pixels.data(),
+                      transposed(options.orientation)};
   return cube_from_sphere_map(resample(source, map_shape(Mapping::cube, size), options, nullptr));
 }
 
 Image cube_to_equirect(const Cube& cube, int width, int height, const ResampleOptions& options) {
-  const Source source{map_shape(Mapping::cube, cube.size), cube.channels, cube.texels.data()};
+  const Source source{map_shape(Mapping::cube, cube.size), cube.channels, cube.texels.data(),
+                      transposed(options.orientation)};
   return resample(source, {Mapping::equirectangular, width, height}, options, nullptr).image;
 }
 

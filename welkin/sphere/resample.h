@@ -3,6 +3,7 @@
 
 #include <welkin/image/image.h>
 #include <welkin/sphere/mapping.h>
+#include <welkin/sphere/mat3.h>
 
 // Radiance from one layout of the sphere to another, of any size.
 //
@@ -11,7 +12,7 @@
 // Where it is finer (from twice as fine up), the source is interpolated by a smooth positive kernel on the sphere,
 // the normalised sum of (1 - (distance / radius)^2)^3 over texel centres, radius 1.7 texels, which knows nothing of
 // faces, seams and poles: twice differentiable across all of them, never outside the range of its neighbours, never
-// negative. In between the two are blended by the local ratio of texel sizes. Equal mapping and size is a copy.
+// negative. In between the two are blended by the local ratio of texel sizes. Equal mapping, size and orientation is a copy.
 //
 // A constant stays constant to float rounding. Overlap and interpolation lose or gain a little energy (the kernel
 // mostly, and texels that straddle a cut); it is put back by one factor per channel, close to 1.
@@ -19,6 +20,9 @@
 namespace welkin {
 
 struct ResampleOptions {
+  /// Turns (or mirrors) the environment on the way: what the source shows in direction d the result shows in
+  /// orientation * d. Must be orthogonal; see orientation.h.
+  Mat3 orientation;
   /// Scale each channel so that the integral over the sphere is that of the source (to float rounding).
   bool keep_energy = true;
 };
