@@ -10,6 +10,7 @@
 #include <welkin/error.h>
 #include <welkin/parallel/target_clones.h>
 #include <welkin/sampling/quadrature.h>
+#include <welkin/sh/zonal.h>
 
 namespace welkin {
 namespace {
@@ -68,20 +69,15 @@ QuadratureRule sphere_rule(const ZonalKernel& kernel, int max_degree) {
 template <class Window>
 std::vector<double> project(const ZonalKernel& kernel, int max_degree, Window&& window) {
   const QuadratureRule rule = sphere_rule(kernel, max_degree);
-  std::vector<double> sums(max_degree + 1);
+  std::vector<double> cosines, weights;
   for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-    const double s = std::sin(0.5 * rule.nodes[i]), x = std::cos(rule.nodes[i]);
+    const double s = std::sin(0.5 * rule.nodes[i]);
     const double weight = rule.weights[i] * evaluate(kernel, 2 * s * s) * window(rule.nodes[i]);
     if (weight < 1e-18) continue;  // of a total of 1
-    double previous = 0, current = 1;
-    for (int l = 0; l <= max_degree; ++l) {
-      sums[l] += weight * current;
-      const double next = ((2 * l + 1) * x * current - l * previous) / (l + 1);
-      previous = current;
-      current = next;
-    }
+    cosines.push_back(1 - 2 * s * s);
+    weights.push_back(weight);
   }
-  return sums;
+  return project_zonal(cosines, weights, max_degree);
 }
 
 ZonalKernel normalized_kernel(KernelKind kind, double parameter) {

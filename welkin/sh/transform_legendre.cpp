@@ -22,7 +22,7 @@ WELKIN_INLINE Lanes load(const double* from) {
 WELKIN_INLINE void store(double* to, const Lanes& lanes) { std::memcpy(to, &lanes, sizeof lanes); }
 
 constexpr int scale_bits = 800;
-constexpr double negligible = 1e-20;  // of values that reach about 1: far below double rounding
+constexpr double negligible = 1e-40;  // of values that reach about 1, see skip_negligible
 
 // a and c of the recurrence for one order, indexed by l - m.
 struct Recurrence {
@@ -98,18 +98,40 @@ WELKIN_INLINE void rescale(Walk<Nodes>& walk) {
   }
 }
 
-// The current values with lanes that still carry a scale set to zero; `matters` tells whether any is not negligible.
+// The current values with lanes that still carry a scale set to zero.
 template <int Nodes>
-WELKIN_INLINE bool visible(const Walk<Nodes>& walk, Lanes* values) {
-  bool matters = false;
+WELKIN_INLINE void visible(const Walk<Nodes>& walk, Lanes* values) {
   for (int node = 0; node < Nodes; ++node) {
     values[node] = walk.now[node];
-    for (int lane = 0; lane < lane_count; ++lane) {
+    for (int lane = 0; lane < lane_count; ++lane)
       if (walk.scale[node][lane] > 0) values[node][lane] = 0;
-      matters |= std::abs(values[node][lane]) > negligible;
-    }
   }
-  return matters;
+}
+
+template <int Nodes>
+WELKIN_INLINE bool is_negligible(const Walk<Nodes>& walk) {
+  bool matters = false;
+  for (int node = 0; node < Nodes; ++node) {
+    const auto large = (walk.now[node] > negligible) | (walk.now[node] < -negligible);
+    for (int lane = 0; lane < lane_count; ++lane) matters |= large[lane] != 0 && walk.scale[node][lane] == 0;
+  }
+  return !matters;
+}
+
+// Walks from l = m to the first l - m (returned, even) at which any value may matter; last + 1 where none does. Looks
+// only every eighth degree: a step grows values by less than sqrt(2 l + 3), so what is skipped stays below 1e-25.
+template <int Nodes>
+WELKIN_INLINE int skip_negligible(Walk<Nodes>& walk, const Recurrence& recurrence, int last) {
+  int i = 0;
+  while (is_negligible(walk)) {
+    if (i + 8 > last) return last + 1;
+    for (int k = 0; k < 8; ++k) {
+      ++i;
+      step(walk, recurrence.a[i], recurrence.c[i]);
+    }
+    if (walk.scaled) rescale(walk);
+  }
+  return i;
 }
 
 bool beyond_turning_point(int m, int max_degree, double max_sin_theta) {
@@ -134,19 +156,21 @@ WELKIN_INLINE void analyze_block(int m, const Recurrence& recurrence, double log
     weights[node] = load(&rows.weight[(static_cast<std::size_t>(block) * Nodes + node) * lane_count]);
   const double* by_parity[2] = {data.at(m, block, 0, 0), data.at(m, block, 1, 0)};
   const int last = data.max_degree - m;
-  int i = 0;  // l - m
-  for (bool steady = false; i <= last && !steady; ++i) {
-    if (i > 0) step(walk, recurrence.a[i], recurrence.c[i]);
-    if (walk.scaled) rescale(walk);
-    Lanes values[Nodes];
-    if (!visible(walk, values)) continue;
-    steady = !walk.scaled;
+  int i = skip_negligible(walk, recurrence, last);  // l - m
+  const auto add = [&](const Lanes* values) {
     add_rows<Nodes, Parts>(values, weights, by_parity[i & 1], sums + static_cast<std::size_t>(i) * Parts * lane_count);
+  };
+  for (; walk.scaled && i <= last; ++i) {
+    Lanes values[Nodes];
+    visible(walk, values);
+    add(values);
+    if (i == last) return;
+    step(walk, recurrence.a[i + 1], recurrence.c[i + 1]);
+    rescale(walk);
   }
-  for (; i <= last; ++i) {
-    step(walk, recurrence.a[i], recurrence.c[i]);
-    add_rows<Nodes, Parts>(walk.now, weights, by_parity[i & 1],
-                           sums + static_cast<std::size_t>(i) * Parts * lane_count);
+  while (i <= last) {
+    add(walk.now);
+    if (++i <= last) step(walk, recurrence.a[i], recurrence.c[i]);
   }
 }
 
@@ -190,19 +214,23 @@ WELKIN_INLINE void synthesize_block(int m, const Recurrence& recurrence, double 
   start(walk, m, log_factor, rows, block);
   Lanes sums[2][Parts] = {};
   const int last = data.max_degree - m;
-  int i = 0;
-  for (bool steady = false; i <= last && !steady; ++i) {
-    if (i > 0) step(walk, recurrence.a[i], recurrence.c[i]);
-    if (walk.scaled) rescale(walk);
+  int i = skip_negligible(walk, recurrence, last);
+  for (; walk.scaled && i <= last; ++i) {
     Lanes value;
-    if (!visible(walk, &value)) continue;
-    steady = !walk.scaled;
+    visible(walk, &value);
     add_degree<Parts>(value, coefficients + static_cast<std::size_t>(i) * Parts, sums[i & 1]);
+    if (i == last) break;
+    step(walk, recurrence.a[i + 1], recurrence.c[i + 1]);
+    rescale(walk);
   }
-  for (; i <= last; ++i) {
-    step(walk, recurrence.a[i], recurrence.c[i]);
+  // Two degrees at a time, so that the sums of each parity stay in registers.
+  for (; i + 1 <= last && !walk.scaled; i += 2) {
     add_degree<Parts>(walk.now[0], coefficients + static_cast<std::size_t>(i) * Parts, sums[i & 1]);
+    step(walk, recurrence.a[i + 1], recurrence.c[i + 1]);
+    add_degree<Parts>(walk.now[0], coefficients + static_cast<std::size_t>(i + 1) * Parts, sums[(i + 1) & 1]);
+    if (i + 2 <= last) step(walk, recurrence.a[i + 2], recurrence.c[i + 2]);
   }
+  if (i == last && !walk.scaled) add_degree<Parts>(walk.now[0], coefficients + static_cast<std::size_t>(i) * Parts, sums[i & 1]);
   for (int parity = 0; parity < 2; ++parity)
     for (int part = 0; part < Parts; ++part) store(data.at(m, block, parity, part), sums[parity][part]);
 }

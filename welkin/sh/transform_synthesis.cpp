@@ -23,21 +23,23 @@ legendre::RowPairs place_rows(int rows) {
   return pairs;
 }
 
-// One channel of a northern row and its mirror image by one complex FFT: the real part becomes the northern row. With
-// F_m of a real row, f = F_0 + sum over m > 0 of F_m e^(i m phi) + conj, so Z_m = N_m + i S_m, Z_-m = conj N_m + i conj
-// S_m.
-void synthesize_row_pair(const legendre::OrderData& data, int pair, int channel, const std::vector<Complex>& phases,
-                         std::vector<Complex>& z) {
-  const int block = pair / lane_count, lane = pair % lane_count;
+// One channel of lane_count northern rows and their mirror images, each pair by one complex FFT: the real part becomes
+// the northern row. With F_m of a real row, f = F_0 + sum over m > 0 of F_m e^(i m phi) + conj, so
+// Z_m = N_m + i S_m and Z_-m = conj N_m + i conj S_m. z holds lane_count transforms one after the other.
+void gather_orders(const legendre::OrderData& data, int block, int channel, int columns,
+                   const std::vector<Complex>& phases, std::vector<Complex>& z) {
   std::fill(z.begin(), z.end(), Complex{});
   for (int m = 0; m <= data.max_degree; ++m) {
-    const auto part = [&](int parity) {
-      return phases[m] *
-             Complex(data.at(m, block, parity, 2 * channel)[lane], data.at(m, block, parity, 2 * channel + 1)[lane]);
-    };
-    const Complex even = part(0), odd = part(1), north = even + odd, south = even - odd;
-    z[m] += north + Complex(0, 1) * south;
-    if (m > 0) z[z.size() - m] += std::conj(north) + Complex(0, 1) * std::conj(south);
+    const double* even_re = data.at(m, block, 0, 2 * channel);
+    const double* odd_re = data.at(m, block, 1, 2 * channel);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const Complex even = phases[m] * Complex(even_re[lane], even_re[lane + lane_count]);
+      const Complex odd = phases[m] * Complex(odd_re[lane], odd_re[lane + lane_count]);
+      const Complex north = even + odd, south = even - odd;
+      Complex* row = z.data() + static_cast<std::size_t>(lane) * columns;
+      row[m] = {north.real() - south.imag(), north.imag() + south.real()};
+      if (m > 0) row[columns - m] = {north.real() + south.imag(), south.real() - north.imag()};
+    }
   }
 }
 
@@ -93,16 +95,18 @@ SphereGrid synthesize(const Spectrum& spectrum, int rows, int columns) {
     const double angle = std::numbers::pi * m / columns;
     phases[m] = (m % 2 ? -1.0 : 1.0) * Complex(std::cos(angle), std::sin(angle));
   }
-  parallel_for(rows / 2, 4 * lane_count, [&](std::size_t begin, std::size_t end) {
+  parallel_for(pairs.blocks, 2, [&](std::size_t begin, std::size_t end) {
     const kissfft<double> fft(columns, true);
-    std::vector<Complex> z(columns), values(columns);
-    for (int pair = static_cast<int>(begin); pair < static_cast<int>(end); ++pair) {
+    std::vector<Complex> z(static_cast<std::size_t>(columns) * lane_count), values(columns);
+    for (int block = static_cast<int>(begin); block < static_cast<int>(end); ++block) {
       for (int c = 0; c < grid.channels; ++c) {
-        synthesize_row_pair(data, pair, c, phases, z);
-        fft.transform(z.data(), values.data());
-        for (int x = 0; x < columns; ++x) {
-          grid.at(pair, x)[c] = static_cast<float>(values[x].real());
-          grid.at(rows - 1 - pair, x)[c] = static_cast<float>(values[x].imag());
+        gather_orders(data, block, c, columns, phases, z);
+        for (int pair = block * lane_count; pair < std::min(pairs.pairs, (block + 1) * lane_count); ++pair) {
+          fft.transform(z.data() + static_cast<std::size_t>(pair % lane_count) * columns, values.data());
+          for (int x = 0; x < columns; ++x) {
+            grid.at(pair, x)[c] = static_cast<float>(values[x].real());
+            grid.at(rows - 1 - pair, x)[c] = static_cast<float>(values[x].imag());
+          }
         }
       }
     }
