@@ -44,6 +44,8 @@ TEST(Rgb9e5, KnownWords) {
   EXPECT_EQ(encode(0, 0x1p-24f, 0), 1u << 9);
   EXPECT_EQ(encode(511.5f, 1, 0), (24u << 27) | (1u << 9) | 511u);   // as close as 512, and finer
   EXPECT_EQ(encode(511.75f, 2, 0), (25u << 27) | (1u << 9) | 256u);  // the carry into the exponent
+  EXPECT_EQ(encode(-0.0f, -0.0f, -0.0f), 0u);
+  EXPECT_EQ(encode(0x1p-149f, 0, 0), 0u);
   EXPECT_EQ(encode(-0.0f, 0, 2), (17u << 27) | (256u << 18));
 }
 

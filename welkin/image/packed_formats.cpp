@@ -37,9 +37,7 @@ constexpr std::array<FormatFacts, 5> formats = {{
     {"rg32f", {Component::float32, 2}, float_max},
 }};
 
-const FormatFacts& facts(PixelFormat format) {
-  return formats.at(static_cast<std::size_t>(format));
-}
+const FormatFacts& facts(PixelFormat format) { return formats.at(static_cast<std::size_t>(format)); }
 
 float power_of_two(int exponent) {
   assert(exponent >= -126 && exponent <= 127);
@@ -49,7 +47,7 @@ float power_of_two(int exponent) {
 float clamped_channel(float value, std::size_t& clipped) {
   const bool inside = value >= 0 && value <= rgb9e5_max;  // false for NaN
   clipped += inside ? 0 : 1;
-  return inside ? value : (value > 0 ? rgb9e5_max : 0.0f);
+  return inside ? std::abs(value) : (value > 0 ? rgb9e5_max : 0.0f);  // abs: -0 has no place either
 }
 
 float saturated_float(float value, std::size_t& clipped) {
@@ -103,18 +101,10 @@ constexpr std::size_t pixels_per_chunk = 1 << 15;
 
 }  // namespace
 
-PixelLayout pixel_layout(PixelFormat format) {
-  return facts(format).layout;
-}
-std::string_view pixel_format_name(PixelFormat format) {
-  return facts(format).name;
-}
-float pixel_format_max(PixelFormat format) {
-  return facts(format).max;
-}
-bool pixel_format_has_sign(PixelFormat format) {
-  return format != PixelFormat::rgb9e5;
-}
+PixelLayout pixel_layout(PixelFormat format) { return facts(format).layout; }
+std::string_view pixel_format_name(PixelFormat format) { return facts(format).name; }
+float pixel_format_max(PixelFormat format) { return facts(format).max; }
+bool pixel_format_has_sign(PixelFormat format) { return format != PixelFormat::rgb9e5; }
 
 // Let u = 2^(E - 24) be the unit of the mantissas for the biased exponent E. With the largest channel m in
 // [2^e, 2^(e+1)), E = e + 16 puts m/u in [256, 512). A mantissa ends at 511, so for m/u above 511.5 the next

@@ -52,7 +52,8 @@ void put_header(std::vector<std::uint8_t>& bytes, const TextureSource& source, c
   const bool cube = source.faces == 6, mips = source.levels.size() > 1;
   put_u32(bytes, magic);
   put_u32(bytes, 124);
-  put_u32(bytes, flag_caps | flag_height | flag_width | flag_pixel_format | flag_pitch | (mips ? flag_levels : 0));
+  put_u32(bytes,
+          flag_caps | flag_height | flag_width | flag_pixel_format | flag_pitch | (mips ? flag_levels : 0));
   put_u32(bytes, static_cast<std::uint32_t>(source.height));
   put_u32(bytes, static_cast<std::uint32_t>(source.width));
   put_u32(bytes, static_cast<std::uint32_t>(static_cast<std::size_t>(source.width) * format.layout.bytes()));
@@ -89,8 +90,8 @@ EncodedTexture encode(const TextureSource& source, const DdsOptions& options) {
       const auto part = level.subspan(face * (level.size() / faces), level.size() / faces);
       const std::size_t begin = texture.bytes.size();
       texture.bytes.resize(begin + part.size() / static_cast<std::size_t>(source.channels) * texel);
-      texture.clipped +=
-          encode_pixels(part, source.channels, factor, options.format, std::span(texture.bytes).subspan(begin));
+      texture.clipped += encode_pixels(part, source.channels, factor, options.format,
+                                       std::span(texture.bytes).subspan(begin));
     }
   }
   return texture;
@@ -104,14 +105,16 @@ struct Header {
 };
 
 const DdsFormat* find_format(std::uint32_t number, std::uint32_t DdsFormat::*field) {
-  const auto found = std::find_if(formats.begin(), formats.end(),
-                                  [&](const DdsFormat& format) { return number != 0 && format.*field == number; });
+  const auto found = std::find_if(formats.begin(), formats.end(), [&](const DdsFormat& format) {
+    return number != 0 && format.*field == number;
+  });
   return found == formats.end() ? nullptr : &*found;
 }
 
 void parse_dx10(Bytes bytes, std::string_view name, Header& header) {
   if (bytes.size() < dx10_header_size) throw Error(name, "this DDS file is cut off in its header");
-  if (get_u32(bytes, at_dimension) != dimension_2d) throw Error(name, "only 2-D and cube DDS textures are read");
+  if (get_u32(bytes, at_dimension) != dimension_2d)
+    throw Error(name, "only 2-D and cube DDS textures are read");
   if (get_u32(bytes, at_array) > 1) throw Error(name, "DDS texture arrays are not read");
   header.cube = (get_u32(bytes, at_misc) & misc_cube) != 0;
   header.format = find_format(get_u32(bytes, at_dxgi), &DdsFormat::dxgi);
@@ -148,7 +151,8 @@ Header parse_header(Bytes bytes, std::string_view name) {
   header.levels = std::max(1u, get_u32(bytes, at_levels));
   const bool dx10 = get_u32(bytes, at_fourcc) == dx10_fourcc;
   dx10 ? parse_dx10(bytes, name, header) : parse_legacy(bytes, name, header);
-  if (header.cube && header.width != header.height) throw Error(name, "the faces of this DDS cube are not square");
+  if (header.cube && header.width != header.height)
+    throw Error(name, "the faces of this DDS cube are not square");
   check_image_size(name, header.width, std::int64_t{header.height} * (header.cube ? 6 : 1), bytes.size(),
                    1.0 / static_cast<double>(header.format->layout.bytes()));
   if (header.levels > static_cast<std::uint32_t>(std::bit_width(std::max(header.width, header.height)))) {
@@ -178,7 +182,8 @@ LoadedImage decode_dds(Bytes bytes, std::string_view name) {
   std::size_t face_bytes = 0;
   for (std::uint32_t k = 0; k < header.levels; ++k) face_bytes += level_bytes(header, k);
   const std::size_t needed = face_bytes * (header.cube ? 6 : 1);
-  if (needed > bytes.size() - header.data_offset) throw Error(name, "this DDS file is cut off: pixels are missing");
+  if (needed > bytes.size() - header.data_offset)
+    throw Error(name, "this DDS file is cut off: pixels are missing");
   const Bytes data = bytes.subspan(header.data_offset);
   LoadedImage image;
   image.format = "DDS " + std::string(header.format->name);

@@ -39,8 +39,8 @@ TextureSource texture_source(const Image& image) {
 
 double texture_scale(const TextureSource& source, PixelFormat format, RangePolicy policy, double wanted) {
   int exponent = 0;
-  const bool power_of_two =
-      wanted > 0 && std::isfinite(wanted) && std::frexp(wanted, &exponent) == 0.5 && std::abs(exponent) <= 125;
+  const bool power_of_two = wanted > 0 && std::isfinite(wanted) && std::frexp(wanted, &exponent) == 0.5 &&
+                            std::abs(exponent) <= 125;
   if (power_of_two) return wanted;
   if (wanted != 0) throw Error("the stored scale must be a power of two");
   float largest = 0;
