@@ -77,7 +77,7 @@ class PatchMean {
     const double source_texels = static_cast<double>(source.shape.width) * source.shape.height;
     const double ratio = std::sqrt(source_texels / target.width / target.height);
     middle_ = target.mapping == Mapping::dual_paraboloid ? target.height : target.width;
-    max_depth_ = 4 + std::max(0, static_cast<int>(std::ceil(std::log2(ratio))));
+    max_depth_ = 5 + std::max(0, static_cast<int>(std::ceil(std::log2(ratio))));
   }
 
   Sum operator()(int x, int y) {
@@ -90,7 +90,7 @@ class PatchMean {
   }
 
  private:
-  static constexpr double flat_enough = 0.05;
+  static constexpr double flat_enough = 0.01;
 
   // The whole texel at once, with the corners that it shares with its neighbours looked up.
   bool add_whole(int x, int y) {

@@ -20,11 +20,11 @@
 namespace welkin {
 
 struct ResampleOptions {
+  /// Scale each channel so that the integral over the sphere is that of the source (to float rounding).
+  bool keep_energy = true;
   /// Turns (or mirrors) the environment on the way: what the source shows in direction d the result shows in
   /// orientation * d. Must be orthogonal; see orientation.h.
   Mat3 orientation;
-  /// Scale each channel so that the integral over the sphere is that of the source (to float rounding).
-  bool keep_energy = true;
 };
 
 /// What a resampling did, for those who report it.
