@@ -4,6 +4,8 @@
 #include <ImfTiledOutputFile.h>
 #include <half.h>
 
+#include <algorithm>
+
 namespace welkin {
 namespace {
 
@@ -11,7 +13,7 @@ std::size_t size_of(Imf::PixelType type) { return type == Imf::HALF ? 2 : 4; }
 
 void store(char* at, Imf::PixelType type, float value) {
   const half as_half(value);
-  const auto as_uint = static_cast<unsigned>(value);
+  const auto as_uint = static_cast<unsigned>(std::max(value, 0.0f));
   const void* source = type == Imf::HALF   ? static_cast<const void*>(&as_half)
                        : type == Imf::UINT ? static_cast<const void*>(&as_uint)
                                            : static_cast<const void*>(&value);

@@ -6,6 +6,7 @@
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfPreviewImage.h>
 #include <ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 
@@ -325,6 +326,35 @@ TEST(Exr, HugeSizesInSmallFilesAreRefusedBeforeMemoryIsTaken) {
     set_window(bytes, "dataWindow", 0, 0);
     EXPECT_NE(exr_refusal(bytes), "(accepted)");
   }
+}
+
+// The library would take the gigabyte that an attribute promises. Size 4 of the first attribute of that type becomes
+// 0x40000004; welkin's own walk over the header finds it, whether it knows the attribute or not.
+TEST(Exr, AttributesLargerThanTheFileAreRefused) {
+  const std::vector<ExrChannel> channels = rgb_channels(Imf::HALF);
+  const Bytes whole = exr_file(exr_header({}, channels), channels);
+  for (const std::string& name : {std::string("pixelAspectRatio"), std::string("unknown")}) {
+    Bytes bytes = whole;
+    const std::string key("pixelAspectRatio\0float\0\4\0\0\0", 27);
+    const auto found = std::search(bytes.begin(), bytes.end(), key.begin(), key.end());
+    ASSERT_NE(found, bytes.end());
+    std::copy(name.begin(), name.end(), found);
+    *(found + 26) = 0x40;
+    EXPECT_NE(exr_refusal(bytes).find("the header is damaged"), std::string::npos) << name;
+  }
+}
+
+// A preview that promises 2^30 x 2^30 pixels in 12 bytes: the library would multiply and allocate.
+TEST(Exr, AttributesWithoutUseAreNotInterpreted) {
+  const std::vector<ExrChannel> channels = rgb_channels(Imf::HALF);
+  Imf::Header header = exr_header({}, channels);
+  header.setPreviewImage(Imf::PreviewImage(1, 1));
+  Bytes bytes = exr_file(header, channels);
+  const std::string key("preview\0preview\0", 16);
+  const auto found = std::search(bytes.begin(), bytes.end(), key.begin(), key.end());
+  ASSERT_NE(found, bytes.end());
+  *(found + 20 + 3) = *(found + 20 + 7) = 0x40;
+  expect_rgb(decode(bytes).flat, 0, 0, 5, 4);
 }
 
 TEST(Exr, OtherFilesAreRefused) {

@@ -23,28 +23,35 @@
 
 #include <welkin/error.h>
 #include <welkin/image/codecs/chromaticities.h>
+#include <welkin/image/codecs/exr_header.h>
 #include <welkin/image/codecs/size_limit.h>
 
 namespace welkin {
 namespace {
 
+// The file in memory, its first bytes replaced by the checked headers.
 class MemoryInput : public Imf::IStream {
  public:
-  explicit MemoryInput(std::span<const std::uint8_t> bytes) : IStream("memory"), bytes_(bytes) {}
+  MemoryInput(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> headers)
+      : IStream("memory"), bytes_(bytes), headers_(headers) {}
   bool read(char data[], int count) override {
     if (count < 0 || position_ > bytes_.size() ||
         bytes_.size() - position_ < static_cast<std::size_t>(count)) {
       throw Iex::InputExc("the file is cut off");
     }
-    std::memcpy(data, bytes_.data() + position_, static_cast<std::size_t>(count));
-    position_ += static_cast<std::size_t>(count);
+    const auto size = static_cast<std::size_t>(count);
+    std::memcpy(data, bytes_.data() + position_, size);
+    if (position_ < headers_.size()) {
+      std::memcpy(data, headers_.data() + position_, std::min(size, headers_.size() - position_));
+    }
+    position_ += size;
     return position_ < bytes_.size();
   }
   std::uint64_t tellg() override { return position_; }
   void seekg(std::uint64_t position) override { position_ = position; }
 
  private:
-  std::span<const std::uint8_t> bytes_;
+  std::span<const std::uint8_t> bytes_, headers_;
   std::size_t position_ = 0;
 };
 
@@ -286,7 +293,8 @@ void undo_stored_scale(const Imf::Header& header, Image& image) {
 
 LoadedImage decode(std::span<const std::uint8_t> bytes, std::string_view name) {
   Imf::setGlobalThreadCount(0);
-  MemoryInput stream(bytes);
+  const std::vector<std::uint8_t> headers = checked_exr_headers(bytes, name);
+  MemoryInput stream(bytes, headers);
   Imf::MultiPartInputFile file(stream, 0);
   LoadedImage loaded;
   loaded.format = "OpenEXR";

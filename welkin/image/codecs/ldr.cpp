@@ -41,6 +41,21 @@ void check_jpeg_is_whole(std::span<const std::uint8_t> bytes, std::string_view n
   throw Error(name, "this JPEG is cut off: it has no end-of-image marker");
 }
 
+// stb takes memory for a chunk by the length it gives. So follow the chunks (length, type, data, check sum) to the end.
+void check_png_is_whole(std::span<const std::uint8_t> bytes, std::string_view name) {
+  constexpr std::array<std::uint8_t, 4> end_type{'I', 'E', 'N', 'D'};
+  std::size_t at = png_magic.size();
+  while (at + 12 <= bytes.size()) {
+    const auto head = bytes.subspan(at);
+    const std::size_t length =
+        std::size_t{head[0]} << 24 | std::size_t{head[1]} << 16 | std::size_t{head[2]} << 8 | head[3];
+    if (length > head.size() - 12) break;
+    if (starts_with(head.subspan(4), end_type)) return;
+    at += 12 + length;
+  }
+  throw Error(name, "this PNG is cut off or damaged: its chunks do not lead to an end chunk");
+}
+
 struct StbFree {
   void operator()(void* memory) const { stbi_image_free(memory); }
 };
@@ -97,7 +112,7 @@ LoadedImage decode_ldr(std::span<const std::uint8_t> bytes, std::string_view nam
   if (!png && !jpeg) throw Error(name, "neither a PNG nor a JPEG file");
   LoadedImage loaded;
   loaded.format = png ? "PNG" : "JPEG";
-  if (jpeg) check_jpeg_is_whole(bytes, name);
+  png ? check_png_is_whole(bytes, name) : check_jpeg_is_whole(bytes, name);
   check_size(bytes, name, loaded.format, png);
   loaded.flat = decode_pixels(bytes, name, loaded.format);
   loaded.warnings.push_back(loaded.format + " is not HDR: light above white is lost");

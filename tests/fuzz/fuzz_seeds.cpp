@@ -1,0 +1,143 @@
+#include <stb_image_write.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include <tests/image/exr_files.h>
+#include <welkin/image/codecs/dds.h>
+#include <welkin/image/codecs/exr.h>
+#include <welkin/image/codecs/hdr.h>
+#include <welkin/image/codecs/ktx2.h>
+#include <welkin/image/codecs/ldr.h>
+#include <welkin/image/output_file.h>
+
+// Usage: fuzz_seeds FOLDER. Writes small valid files of every form into FOLDER/<reader>, and all of them into
+// FOLDER/image, for the fuzzers to begin with.
+
+namespace welkin {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+class SeedFolder {
+ public:
+  explicit SeedFolder(std::filesystem::path root) : root_(std::move(root)) {}
+  void add(const std::string& reader, const std::string& name, const Bytes& bytes) const {
+    for (const std::string& folder : {reader, std::string("image")}) {
+      std::filesystem::create_directories(root_ / folder);
+      write_file(root_ / folder / name, bytes);
+    }
+  }
+
+ private:
+  std::filesystem::path root_;
+};
+
+Image picture(int width, int height, int channels = 3) {
+  Image image(width, height, channels);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<float>(i / 5) * 0.25f;
+  return image;
+}
+
+CubeMips cube_mips(int size) {
+  CubeMips cube;
+  for (; size > 0; size /= 2) {
+    cube.levels.emplace_back(size);
+    std::fill(cube.levels.back().texels.begin(), cube.levels.back().texels.end(), static_cast<float>(size));
+  }
+  return cube;
+}
+
+Bytes text_and_pixels(const std::string& text, const Bytes& pixels) {
+  Bytes bytes(text.begin(), text.end());
+  bytes.insert(bytes.end(), pixels.begin(), pixels.end());
+  return bytes;
+}
+
+void add_hdr(const SeedFolder& seeds) {
+  seeds.add("hdr", "new.hdr", encode_hdr(picture(16, 3)));
+  seeds.add("hdr", "flat.hdr", encode_hdr(picture(3, 2)));
+  const std::string variables = "EXPOSURE=2\nCOLORCORR=1 2 3\nFORMAT=32-bit_rle_xyze\n\n";
+  seeds.add(
+      "hdr", "old.hdr",
+      text_and_pixels("#?RADIANCE\n" + variables + "+X 1 -Y 261\n", {9, 8, 7, 130, 1, 1, 1, 4, 1, 1, 1, 1}));
+}
+
+std::vector<ExrChannel> exr_channels(Imf::PixelType type, std::initializer_list<const char*> names,
+                                     int sampling = 1) {
+  std::vector<ExrChannel> channels;
+  for (const char* name : names) {
+    channels.push_back({name, [](int x, int y) { return static_cast<float>(x + y); }, type,
+                        channels.empty() ? 1 : sampling});
+  }
+  return channels;
+}
+
+void add_exr_form(const SeedFolder& seeds, const std::string& name, const ExrForm& form,
+                  const std::vector<ExrChannel>& channels) {
+  seeds.add("exr", name + ".exr", exr_file(exr_header(form, channels), channels));
+}
+
+void add_exr(const SeedFolder& seeds) {
+  const Imath::Box2i even{{0, 0}, {7, 3}};
+  const auto rgb = exr_channels(Imf::HALF, {"R", "G", "B"});
+  for (int compression = Imf::NO_COMPRESSION; compression < Imf::NUM_COMPRESSION_METHODS; ++compression) {
+    const auto method = static_cast<Imf::Compression>(compression);
+    add_exr_form(seeds, "compression" + std::to_string(compression), {.compression = method}, rgb);
+  }
+  add_exr_form(seeds, "tiled", {.tile = 2}, rgb);
+  add_exr_form(seeds, "mip", {.tile = 2, .mip_levels = true}, rgb);
+  add_exr_form(seeds, "gray", {}, exr_channels(Imf::FLOAT, {"Y"}));
+  add_exr_form(seeds, "chroma", {.data = even, .display = even},
+               exr_channels(Imf::HALF, {"Y", "RY", "BY"}, 2));
+  add_exr_form(seeds, "uint", {}, exr_channels(Imf::UINT, {"light.R", "light.G", "light.B"}));
+  add_exr_form(seeds, "window", {.data = {{-2, 1}, {3, 5}}, .display = {{0, 0}, {4, 4}}}, rgb);
+  seeds.add("exr", "ours.exr", encode_exr(picture(5, 4), {.stored_scale = 4}));
+}
+
+void append(void* context, void* data, int count) {
+  const auto* begin = static_cast<const std::uint8_t*>(data);
+  auto& out = *static_cast<Bytes*>(context);
+  out.insert(out.end(), begin, begin + count);
+}
+
+void add_ldr(const SeedFolder& seeds) {
+  ByteImage bytes(9, 5);
+  for (std::size_t i = 0; i < bytes.pixels.size(); ++i) bytes.pixels[i] = static_cast<std::uint8_t>(7 * i);
+  seeds.add("ldr", "rgb.png", encode_png(bytes));
+  seeds.add("ldr", "gray.png", encode_png(ByteImage(3, 3, 1)));
+  Bytes jpeg;
+  stbi_write_jpg_to_func(append, &jpeg, bytes.width, bytes.height, 3, bytes.pixels.data(), 80);
+  seeds.add("ldr", "rgb.jpg", jpeg);
+}
+
+void add_textures(const SeedFolder& seeds) {
+  for (PixelFormat format : {PixelFormat::rgba16f, PixelFormat::rgba32f, PixelFormat::rgb9e5}) {
+    const std::string name = std::to_string(static_cast<int>(format));
+    for (int zstd_level : {0, 1}) {
+      const Ktx2Options options{.format = format, .zstd_level = zstd_level};
+      const std::string suffix = name + (zstd_level > 0 ? "-zstd.ktx2" : ".ktx2");
+      seeds.add("ktx2", "cube" + suffix, encode_ktx2(cube_mips(2), options).bytes);
+      seeds.add("ktx2", "flat" + suffix, encode_ktx2(picture(3, 2), options).bytes);
+    }
+    seeds.add("dds", "cube" + name + ".dds", encode_dds(cube_mips(2), {.format = format}).bytes);
+    seeds.add("dds", "flat" + name + ".dds", encode_dds(picture(3, 2), {.format = format}).bytes);
+  }
+}
+
+}  // namespace
+}  // namespace welkin
+
+int main(int count, char** arguments) {
+  if (count != 2) {
+    std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
+    return 2;
+  }
+  const welkin::SeedFolder seeds(arguments[1]);
+  welkin::add_hdr(seeds);
+  welkin::add_exr(seeds);
+  welkin::add_ldr(seeds);
+  welkin::add_textures(seeds);
+  return 0;
+}
