@@ -52,14 +52,33 @@ double air_mass(double zenith_degrees) {
   return 1 / (std::cos(radians(z)) + 0.15 * std::pow(93.885 - z, -1.253));
 }
 
-double transmittance(int index, double mass, double turbidity) {
+// What is left of the direct light at one wavelength, by cause.
+struct Transmittance {
+  double rayleigh, aerosol, absorption;
+};
+
+Transmittance transmittance(int index, double mass, double turbidity) {
   const double um = (first_wavelength + index * wavelength_step) / 1000;
-  const double rayleigh = 0.008735 * std::pow(um, -4.08);
-  const double aerosol = (0.04608 * turbidity - 0.04586) * std::pow(um, -1.3);
+  const double rayleigh_depth = 0.008735 * std::pow(um, -4.08);
+  const double aerosol_depth = (0.04608 * turbidity - 0.04586) * std::pow(um, -1.3);
   const double ozone_depth = ozone[index] * 0.35;            // cm of ozone
   const double water_path = water_vapour(index) * 2 * mass;  // 2 cm of precipitable water
-  return std::exp(-(rayleigh + aerosol + ozone_depth) * mass -
-                  0.2385 * water_path / std::pow(1 + 20.07 * water_path, 0.45));
+  const double water_loss = 0.2385 * water_path / std::pow(1 + 20.07 * water_path, 0.45);
+  return {std::exp(-rayleigh_depth * mass), std::exp(-aerosol_depth * mass),
+          std::exp(-ozone_depth * mass - water_loss)};
+}
+
+// XYZ, in W/m^2 of 179 lm, of the solar spectrum times share(transmittance) at each wavelength.
+template <class Share>
+Rgb filtered_sunlight(const DaylightOptions& options, Share&& share) {
+  const double mass = air_mass(90 - options.elevation);
+  Rgb xyz{};
+  for (int i = 0; i < wavelengths; ++i) {
+    const double spectral = solar_spectrum[i] / 1000;  // W/(m^2 nm)
+    const double weight = wavelength_step * spectral * share(transmittance(i, mass, options.turbidity));
+    xyz = xyz + weight * colour_matching(first_wavelength + i * wavelength_step);
+  }
+  return 683 / luminous_efficacy * xyz;
 }
 
 // How the light of a clear sky falls after sunset, as a factor on the sky at sunset: illuminances of 400, 3.4, 0.008 and
@@ -103,14 +122,18 @@ double sun_solid_angle() {
 }
 
 Rgb sun_irradiance(const DaylightOptions& options) {
+  return rec709_from_xyz(filtered_sunlight(
+      options, [](const Transmittance& t) { return t.rayleigh * t.aerosol * t.absorption; }));
+}
+
+// Bird & Hulstrom 1981, eq. 11 without its absorbing aerosol and its ground. 1 / mass stands for the sine of the
+// elevation, so that the sky fades to some 300 lx at sunset instead of to nothing; twilight goes on from there.
+double sky_illuminance(const DaylightOptions& options) {
   const double mass = air_mass(90 - options.elevation);
-  Rgb xyz{};
-  for (int i = 0; i < wavelengths; ++i) {
-    const double spectral =
-        solar_spectrum[i] / 1000 * transmittance(i, mass, options.turbidity);  // W/(m^2 nm)
-    xyz = xyz + wavelength_step * spectral * colour_matching(first_wavelength + i * wavelength_step);
-  }
-  return rec709_from_xyz(683 / luminous_efficacy * xyz);
+  const Rgb xyz = filtered_sunlight(options, [](const Transmittance& t) {
+    return t.absorption * (0.5 * (1 - t.rayleigh) + 0.84 * (1 - t.aerosol));
+  });
+  return xyz[1] / mass / (1 - mass + std::pow(mass, 1.02)) * twilight_factor(options.elevation);
 }
 
 Rgb sun_radiance(const DaylightOptions& options) { return (1 / sun_solid_angle()) * sun_irradiance(options); }
@@ -119,7 +142,8 @@ Rgb sun_radiance(const DaylightOptions& options) { return (1 / sun_solid_angle()
 // each of Y, x, y, with theta the direction's zenith angle and gamma its angle to the sun; scaled to the zenith value:
 // value = zenith F(theta, gamma) / F(0, theta_sun). Below T = 2, 1 + A e^B passes zero and the fit explodes towards
 // the horizon (Zotti et al. 2007), so the sky (not the sun) uses at least 2. After sunset the sun of the distribution
-// stays on the horizon and the luminance follows the measured twilight.
+// stays on the horizon and the luminance follows the measured twilight. The distribution and its colours are Preetham's;
+// how bright the whole is comes from the balance with the sun, unless the published zenith is asked for.
 PreethamSky::PreethamSky(const DaylightOptions& options) {
   const double T = std::max(options.turbidity, 2.0);
   const double sun_elevation = std::max(options.elevation, 0.0);
@@ -144,6 +168,7 @@ PreethamSky::PreethamSky(const DaylightOptions& options) {
         (1 + p.a * std::exp(p.b)) * (1 + p.c * std::exp(p.d * sun_zenith) + p.e * cos_sun * cos_sun);
     zenith_[i] = zenith[i] / at_zenith;
   }
+  if (!options.published_zenith) zenith_[0] *= sky_illuminance(options) / luminance(horizontal_irradiance());
 }
 
 Rgb PreethamSky::gradation(double cos_zenith) const {

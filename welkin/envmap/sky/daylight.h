@@ -33,6 +33,11 @@ Rgb sun_irradiance(const DaylightOptions& options);
 /// Radiance of the sun's disc, uniform: sun_irradiance over the disc's solid angle.
 Rgb sun_radiance(const DaylightOptions& options);
 
+/// Illuminance of the sky without the sun on a horizontal surface, as luminance / 179 in W/m^2, by the balance of what
+/// the sunlight loses on its way: half of what the molecules scatter and 0.84 of what the aerosol scatters arrives, and
+/// ozone and water absorb (Bird & Hulstrom 1981, spectrally, with the spectrum and the atmosphere of sun_irradiance).
+double sky_illuminance(const DaylightOptions& options);
+
 /// Solid angle of the sun's disc, sr.
 double sun_solid_angle();
 

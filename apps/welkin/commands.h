@@ -1,0 +1,16 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+// The subcommands of `welkin`, one file each. Each declares its options on `app` and runs in a callback; whatever it
+// throws is printed as one line by main.
+
+namespace welkin {
+
+void add_compare_command(CLI::App& app);
+void add_convert_command(CLI::App& app);
+void add_ibl_command(CLI::App& app);
+void add_info_command(CLI::App& app);
+void add_sh_command(CLI::App& app);
+void add_sky_command(CLI::App& app);
+
+}  // namespace welkin

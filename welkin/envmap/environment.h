@@ -1,0 +1,37 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <welkin/image/faults.h>
+#include <welkin/image/image.h>
+#include <welkin/sphere/mapping.h>
+
+namespace welkin {
+
+struct EnvironmentOptions {
+  /// What a flat image shows; unset: told from its proportions (2:1 equirectangular, 4:3, 3:4, 6:1, 1:6 cube layouts).
+  std::optional<Mapping> mapping;
+  /// Degrees about +Y that the environment is turned by, what was at +X moving towards +Z (to the right in the map).
+  double rotate_degrees = 0;
+  /// Left and right swapped (x -> -x).
+  bool mirror = false;
+  FaultPolicy faults = FaultPolicy::repair;
+};
+
+/// An environment ready for every algorithm of this module.
+struct Environment {
+  Image radiance;            ///< equirectangular, 3 channels, linear Rec. 709, finite and >= 0
+  std::string source;        ///< the file or sky that it came from
+  std::string description;   ///< "equirectangular 1024 x 512, Radiance HDR"
+  PixelFaults faults;        ///< values that were repaired
+  std::vector<std::string> warnings;
+};
+
+/// Loads a file (see load_image) or makes a sky ("sky:..." as parse_sky reads it), as an equirectangular map: cubes and
+/// the other mappings are resampled. Throws Error naming the input when it cannot be read, when its proportions fit no
+/// mapping and none was given, when it has faults and they are refused, and when it is black all over.
+Environment load_environment(std::string_view input, const EnvironmentOptions& options = {});
+
+}  // namespace welkin
