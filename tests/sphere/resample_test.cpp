@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -156,15 +156,29 @@ bool far_from_border(Vec3 d, double radius) {
 // wider without limit towards -Z.
 double smear(bool ball, Vec3 d) { return ball ? 0.09 / std::sqrt((1 + d.z) / 2 + 1 / 96.0) : 0.07; }
 
+// The texels that are farther than that from every border, remembered because every pair asks.
+const std::vector<bool>& clear_texels(MapShape shape, bool ball) {
+  static std::map<std::pair<Mapping, bool>, std::vector<bool>> known;
+  std::vector<bool>& clear = known[{shape.mapping, ball}];
+  if (!clear.empty()) return clear;
+  for (int y = 0; y < shape.height; ++y) {
+    for (int x = 0; x < shape.width; ++x) {
+      const Vec3 d = map_texel_direction(shape, x, y);
+      clear.push_back(map_covers(shape, x, y) && far_from_border(d, smear(ball, d)));
+    }
+  }
+  return clear;
+}
+
 // Every texel that is farther from a border of labels than the smear shows its own label. Returns how many there were.
 int check_labels(const SphereMap& map, bool ball, const std::string& name) {
   const MapShape shape = map.shape();
+  const std::vector<bool>& clear = clear_texels(shape, ball);
   int checked = 0, wrong = 0;
   for (int y = 0; y < shape.height; ++y) {
     for (int x = 0; x < shape.width; ++x) {
-      if (!map_covers(shape, x, y)) continue;
       const Vec3 d = map_texel_direction(shape, x, y);
-      if (!far_from_border(d, smear(ball, d))) continue;
+      if (!clear[static_cast<std::size_t>(y) * shape.width + x]) continue;
       const Label label = label_at(d);
       wrong += nearest_label(map.image.at(x, y)) != label_radiance(label) ? 1 : 0;
       ++checked;
