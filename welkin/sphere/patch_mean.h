@@ -99,9 +99,9 @@ class PatchMean {
     const double source_texels = static_cast<double>(source.shape.width) * source.shape.height;
     const double ratio = std::sqrt(source_texels / target.width / target.height);
     middle_ = target.mapping == Mapping::dual_paraboloid ? target.height : target.width;
-    // Inside a quadrilateral the target's density counts as constant: at most 0.07 rad of it.
+    // Inside a quadrilateral the target's density counts as constant: at most 0.15 rad of it.
     const double texel = std::sqrt(4 * std::numbers::pi / target.width / target.height);
-    min_depth_ = std::max(0, static_cast<int>(std::ceil(std::log2(texel / 0.07))));
+    min_depth_ = std::max(0, static_cast<int>(std::ceil(std::log2(texel / 0.15))));
     max_depth_ = 5 + min_depth_ + std::max(0, static_cast<int>(std::ceil(std::log2(ratio))));
   }
 
