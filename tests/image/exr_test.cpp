@@ -104,6 +104,16 @@ TEST(Exr, OverscanIsCropped) {
   }
 }
 
+TEST(Exr, OverscanOnOneSideIsSaid) {
+  const Imath::Box2i display{{0, 0}, {3, 3}};
+  for (const Imath::Box2i& data : {Imath::Box2i{{-1, 0}, {3, 3}}, Imath::Box2i{{0, -1}, {3, 3}},
+                                   Imath::Box2i{{0, 0}, {4, 3}}, Imath::Box2i{{0, 0}, {3, 4}}}) {
+    const LoadedImage loaded = decode({.data = data, .display = display}, rgb_channels(Imf::HALF));
+    expect_rgb(loaded.flat, 0, 0, 4, 4);
+    EXPECT_EQ(loaded.warnings.size(), 1u);
+  }
+}
+
 TEST(Exr, DataBesideTheDisplayWindowIsBlackWithBothWarnings) {
   const LoadedImage loaded =
       decode({.data = {{10, 10}, {12, 12}}, .display = {{0, 0}, {1, 1}}}, rgb_channels(Imf::HALF));
