@@ -203,13 +203,14 @@ std::string kernel_name(const IblSet& set) {
 void draw_title(ByteImage& sheet, const IblSet& set, double exposure_ev) {
   const int x = draw_text(sheet, margin, 24, 3, "welkin", accent) + gap;
   const std::string text = fmt::format("{} texels, {} levels, {}, exposure {:+.1f} EV", set.specular.size(),
-                                       set.specular.levels.size(), name(level_law_of(set)), exposure_ev);
+                                       set.specular.levels.size(), name(level_law_of(set)),
+                                       std::round(10 * exposure_ev) / 10 + 0.0);
   draw_text(sheet, x, 29, text_scale, text, faint);
 }
 
 void draw_chain(ByteImage& sheet, const Light& light, const Layout& layout) {
   caption(sheet, margin, layout.chain_y - heading_height, "specular",
-          fmt::format("{} r = perceptual roughness, alpha = r^2, +X in the middle", kernel_name(light.set)));
+          fmt::format("{}, r = perceptual roughness, alpha = r^2, +X in the middle", kernel_name(light.set)));
   for (std::size_t k = 0; k < light.set.specular.levels.size(); ++k) {
     const int x = margin + static_cast<int>(k) % columns * (cell_width + gap);
     const int y = layout.chain_y + static_cast<int>(k) / columns * (cell_height + caption_height + 8);
@@ -275,7 +276,8 @@ double preview_exposure_ev(const IblSet& set) {
   };
   std::size_t mip = 0;
   while (set.environment.levels[mip].size > 64 && mip + 1 < set.environment.levels.size()) ++mip;
-  return 0.5 * (exposure_of(set.environment.levels[mip]) + exposure_of(set.irradiance) + std::log2(pi));
+  const double by_irradiance = exposure_of(set.irradiance) + std::log2(pi);
+  return 0.5 + 0.75 * by_irradiance + 0.25 * exposure_of(set.environment.levels[mip]);
 }
 
 std::vector<PreviewSphere> preview_spheres(const IblSet& set) {

@@ -32,8 +32,9 @@ std::vector<PreviewSphere> preview_spheres(const IblSet& set);
 /// The law that the roughnesses of the set's levels follow.
 LevelLaw level_law_of(const IblSet& set);
 
-/// The one exposure of the preview, in stops: midway between those that tone_map would choose for the environment and
-/// for irradiance / pi, so that neither a small sun nor a large dark room decides alone.
+/// The one exposure of the preview, in stops: half a stop above a mean of those that tone_map would choose for
+/// irradiance / pi (three parts) and for the environment (one part). Irradiance says what lit things look like, however
+/// small the sun; the environment keeps a dark room with one lamp from turning all black.
 double preview_exposure_ev(const IblSet& set);
 
 /// A contact sheet, RGB sRGB, 1280 pixels wide: every level of the specular chain as a panorama (the middle looks along

@@ -13,9 +13,10 @@ namespace welkin {
 struct EnvironmentOptions {
   /// What a flat image shows; unset: told from its proportions (2:1 equirectangular, 4:3, 3:4, 6:1, 1:6 cube layouts).
   std::optional<Mapping> mapping;
-  /// Degrees about +Y that the environment is turned by, what was at +X moving towards +Z (to the right in the map).
+  /// Degrees that the environment is turned about +Y, right-handed: at 90 what was at +X comes to -Z (in an
+  /// equirectangular map everything moves left by a quarter).
   double rotate_degrees = 0;
-  /// Left and right swapped (x -> -x).
+  /// The equirectangular picture flipped left to right (z -> -z), before the rotation.
   bool mirror = false;
   FaultPolicy faults = FaultPolicy::repair;
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <welkin/envmap/ibl.h>
@@ -9,6 +10,7 @@ namespace welkin {
 struct VerifyOptions {
   int directions = 64;  ///< per level and test, drawn at random besides the brightest texel and its surroundings
   std::uint32_t seed = 1;
+  std::function<void(double)> progress;  ///< told the share done, in [0, 1], from the calling thread
 };
 
 /// Errors against filter_brute_force. mean is the level's mean luminance over the sphere.

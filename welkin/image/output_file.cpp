@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <deque>
 #include <fstream>
 
 #include <welkin/error.h>
@@ -17,13 +18,17 @@ namespace {
 
 // Names of files being written, in storage that a signal handler may read: a slot is claimed, filled, then
 // published through `active`.
-constexpr std::size_t slot_count = 16;
+constexpr std::size_t slot_count = 64;
 struct Slot {
   std::atomic<bool> claimed{false};
   std::atomic<bool> active{false};
   char path[4096] = {};
 };
 std::array<Slot, slot_count> slots;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* what, int error_number) {
+  throw Error(path.string(), std::string(what) + ": " + std::strerror(error_number));
+}
 
 class UnfinishedFile {
  public:
@@ -44,7 +49,11 @@ class UnfinishedFile {
   }
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
-  void finished() { finished_ = true; }
+  const std::string& path() const { return path_; }
+  void rename_to(const std::filesystem::path& path) {
+    if (::rename(path_.c_str(), path.c_str()) != 0) fail(path, "cannot write", errno);
+    finished_ = true;
+  }
 
  private:
   std::string path_;
@@ -52,8 +61,10 @@ class UnfinishedFile {
   bool finished_ = false;
 };
 
-[[noreturn]] void fail(const std::filesystem::path& path, const char* what, int error_number) {
-  throw Error(path.string(), std::string(what) + ": " + std::strerror(error_number));
+
+std::string temporary_name(const std::filesystem::path& path) {
+  static std::atomic<unsigned> serial{0};
+  return path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
 }
 
 void write_all(int file, std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
@@ -63,6 +74,18 @@ void write_all(int file, std::span<const std::uint8_t> bytes, const std::filesys
     if (written < 0) fail(path, "cannot write", errno);
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
+}
+
+void fill(const UnfinishedFile& unfinished, const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  const int file = ::open(unfinished.path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) fail(path, "cannot write", errno);
+  try {
+    write_all(file, bytes, path);
+  } catch (...) {
+    ::close(file);
+    throw;
+  }
+  if (::close(file) != 0) fail(path, "cannot write", errno);
 }
 
 }  // namespace
@@ -83,21 +106,15 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-  static std::atomic<unsigned> serial{0};
-  const std::string temporary =
-      path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
-  UnfinishedFile unfinished(temporary);
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0) fail(path, "cannot write", errno);
-  try {
-    write_all(file, bytes, path);
-  } catch (...) {
-    ::close(file);
-    throw;
-  }
-  if (::close(file) != 0) fail(path, "cannot write", errno);
-  if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot write", errno);
-  unfinished.finished();
+  UnfinishedFile unfinished(temporary_name(path));
+  fill(unfinished, path, bytes);
+  unfinished.rename_to(path);
+}
+
+void write_files(std::span<const OutputFile> files) {
+  std::deque<UnfinishedFile> unfinished;
+  for (const OutputFile& file : files) fill(unfinished.emplace_back(temporary_name(file.path)), file.path, file.bytes);
+  for (std::size_t i = 0; i < files.size(); ++i) unfinished[i].rename_to(files[i].path);
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {

@@ -16,6 +16,16 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void write_file(const std::filesystem::path& path, const std::string& text);
 
+/// A file that is to be written.
+struct OutputFile {
+  std::filesystem::path path;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Writes a set of files: all under temporary names first, renamed only when every one of them is whole. So a failure
+/// (Error naming the file) or a kill while writing leaves what was there before.
+void write_files(std::span<const OutputFile> files);
+
 /// Removes the temporary files of writes that are under way; async-signal-safe, meant for a SIGINT handler.
 void remove_unfinished_files() noexcept;
 

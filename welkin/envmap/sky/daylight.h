@@ -19,6 +19,8 @@ struct DaylightOptions {
   double azimuth =
       30;  // degrees from +X (the middle column of an equirectangular map) towards +Z (rightwards)
   double turbidity = 3;  // 1.7 (very clear) to 10 (hazy)
+  /// Brightness of the sky by the published zenith luminance in place of the balance with the sun (sky_illuminance).
+  bool published_zenith = false;
 };
 
 /// Direction of the sun's centre.

@@ -26,7 +26,7 @@ enum class ExrPixelType { half_float, single_float };
 struct ExrOptions {
   ExrPixelType pixel_type = ExrPixelType::half_float;
   double stored_scale =
-      1;  ///< noted in the file; see LoadedImage::stored_scale. The pixels are written as they are.
+      1;  ///< pixels are written divided by it; the file names it and decode_exr multiplies it back in
 };
 
 /// Encodes 1 (Y), 3 (R, G, B) or 4 (R, G, B, A) channels as scan lines with ZIP compression, Rec.709. Half

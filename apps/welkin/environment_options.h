@@ -1,0 +1,41 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include <welkin/envmap/environment.h>
+#include <welkin/error.h>
+
+namespace welkin {
+
+/// The input and the options that every command which reads an environment has in common.
+struct EnvironmentInput {
+  std::string input;
+  std::string mapping;
+  std::string faults = "repair";
+  EnvironmentOptions options;
+};
+
+inline void add_environment_options(CLI::App& sub, EnvironmentInput& in) {
+  sub.add_option("INPUT", in.input, "An HDR file (.hdr .exr .ktx2 .dds .png .jpg) or sky:... (see welkin sky --help)")
+      ->required();
+  sub.add_option("--mapping", in.mapping,
+                 "What a flat image shows: equirectangular, cube, dual-paraboloid, mirror-ball, octahedral");
+  sub.add_option("--rotate", in.options.rotate_degrees, "Turn the environment about +Y by so many degrees");
+  sub.add_flag("--mirror", in.options.mirror, "Swap left and right");
+  sub.add_option("--faults", in.faults, "NaN, infinite and negative values: repair or refuse")
+      ->check(CLI::IsMember({"repair", "refuse"}))
+      ->capture_default_str();
+}
+
+inline Environment load(const EnvironmentInput& in) {
+  EnvironmentOptions options = in.options;
+  options.faults = in.faults == "refuse" ? FaultPolicy::refuse : FaultPolicy::repair;
+  if (!in.mapping.empty()) {
+    options.mapping = mapping_from_name(in.mapping);
+    if (!options.mapping) throw Error("unknown mapping '" + in.mapping + "'");
+  }
+  return load_environment(in.input, options);
+}
+
+}  // namespace welkin
