@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <welkin/image/tonemap.h>
 #include <welkin/parallel/parallel_for.h>
 #include <welkin/sphere/cube_lookup.h>
 #include <welkin/sphere/equirect.h>
@@ -200,12 +199,14 @@ std::string kernel_name(const IblSet& set) {
   return text.substr(0, text.find(' '));
 }
 
-void draw_title(ByteImage& sheet, const IblSet& set, double exposure_ev) {
+void draw_title(ByteImage& sheet, const Light& light) {
   const int x = draw_text(sheet, margin, 24, 3, "welkin", accent) + gap;
-  const std::string text = fmt::format("{} texels, {} levels, {}, exposure {:+.1f} EV", set.specular.size(),
-                                       set.specular.levels.size(), name(level_law_of(set)),
-                                       std::round(10 * exposure_ev) / 10 + 0.0);
-  draw_text(sheet, x, 29, text_scale, text, faint);
+  const double tenths = std::round(10 * light.tone.exposure_ev.value_or(0)) + 0.0;  // + 0: never minus zero
+  const CubeMips& chain = light.set.specular;
+  draw_text(sheet, x, 29, text_scale,
+            fmt::format("{} texels, {} levels, {}, exposure {:+.1f} EV", chain.size(), chain.levels.size(),
+                        name(light.law), tenths / 10),
+            faint);
 }
 
 void draw_chain(ByteImage& sheet, const Light& light, const Layout& layout) {
@@ -268,7 +269,7 @@ LevelLaw level_law_of(const IblSet& set) {
   return best;
 }
 
-double preview_exposure_ev(const IblSet& set) {
+ToneMapOptions preview_tone(const IblSet& set) {
   const auto exposure_of = [](const Cube& cube) {
     Image texels(cube.size, 6 * cube.size);
     texels.pixels = cube.texels;
@@ -277,7 +278,10 @@ double preview_exposure_ev(const IblSet& set) {
   std::size_t mip = 0;
   while (set.environment.levels[mip].size > 64 && mip + 1 < set.environment.levels.size()) ++mip;
   const double by_irradiance = exposure_of(set.irradiance) + std::log2(pi);
-  return 0.5 + 0.75 * by_irradiance + 0.25 * exposure_of(set.environment.levels[mip]);
+  ToneMapOptions tone;
+  tone.exposure_ev = 0.5 + 0.75 * by_irradiance + 0.25 * exposure_of(set.environment.levels[mip]);
+  tone.white = 6;
+  return tone;
 }
 
 std::vector<PreviewSphere> preview_spheres(const IblSet& set) {
@@ -299,16 +303,12 @@ ByteImage make_preview(const IblSet& set) {
   assert(!set.specular.empty() && set.levels.size() == set.specular.levels.size() &&
          !set.environment.empty());
   assert(!set.irradiance.empty() && set.dfg.size > 0);
-  const double exposure_ev = preview_exposure_ev(set);
-  ToneMapOptions tone;
-  tone.exposure_ev = exposure_ev;
-  tone.white = 6;
-  const Light light{set, level_law_of(set), tone};
+  const Light light{set, level_law_of(set), preview_tone(set)};
   const Layout layout = lay_out(set);
   const std::vector<PreviewSphere> spheres = preview_spheres(set);
   ByteImage sheet(sheet_width, layout.height);
   fill_box(sheet, 0, 0, sheet.width, sheet.height, paper);
-  draw_title(sheet, set, exposure_ev);
+  draw_title(sheet, light);
   draw_chain(sheet, light, layout);
   draw_metals(sheet, light, layout, std::span(spheres).first(metal_count));
   draw_tiles(sheet, light, layout, std::span(spheres).subspan(metal_count));

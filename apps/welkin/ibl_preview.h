@@ -4,6 +4,7 @@
 
 #include <welkin/envmap/ibl.h>
 #include <welkin/image/byte_image.h>
+#include <welkin/image/tonemap.h>
 
 namespace welkin {
 
@@ -32,10 +33,10 @@ std::vector<PreviewSphere> preview_spheres(const IblSet& set);
 /// The law that the roughnesses of the set's levels follow.
 LevelLaw level_law_of(const IblSet& set);
 
-/// The one exposure of the preview, in stops: half a stop above a mean of those that tone_map would choose for
+/// How the preview is shown, all of it alike: the Reinhard curve, and an exposure half a stop above a mean of those that tone_map would choose for
 /// irradiance / pi (three parts) and for the environment (one part). Irradiance says what lit things look like, however
 /// small the sun; the environment keeps a dark room with one lamp from turning all black.
-double preview_exposure_ev(const IblSet& set);
+ToneMapOptions preview_tone(const IblSet& set);
 
 /// A contact sheet, RGB sRGB, 1280 pixels wide: every level of the specular chain as a panorama (the middle looks along
 /// +X, as in the equirectangular input), the spheres of preview_spheres, the irradiance / pi as a panorama, and the DFG
