@@ -46,7 +46,7 @@ DiffuseMethod parse_diffuse(const std::string& name) {
 
 void print_levels(const IblSet& set, const std::optional<IblErrors>& errors) {
   fmt::print("level  size  roughness     alpha");
-  fmt::print(errors ? "   rel. RMS  max/mean    energy  edge step  look-up RMS\n" : "\n");
+  fmt::print("{}\n", errors ? "   rel. RMS  max/mean    energy  edge step  look-up RMS" : "");
   for (std::size_t k = 0; k < set.levels.size(); ++k) {
     const IblLevel& level = set.levels[k];
     fmt::print("{:>5} {:>5} {:>10.4f} {:>9.5f}", k, set.specular.levels[k].size, level.perceptual_roughness, level.alpha);
