@@ -1,6 +1,7 @@
 #include "ibl_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -16,21 +17,18 @@ constexpr std::string_view style = R"css(
   --accent: #9a5b00; --warn: #fff3d6; }
 @media (prefers-color-scheme: dark) { :root { --paper: #1a1b1e; --card: #222327; --ink: #e2e0da; --faint: #9ea1a8;
   --line: #3a3c42; --accent: #f2b85c; --warn: #3b301a; } }
-* { box-sizing: border-box; }
 body { margin: 0 auto; max-width: 76rem; padding: 1.5rem 1rem 4rem; font: 16px/1.5 system-ui, sans-serif;
   background: var(--paper); color: var(--ink); }
 h1 { margin: 0; font-size: 1.7rem; overflow-wrap: anywhere; }  h2 { margin: 2.4rem 0 .6rem; font-size: 1.15rem; color: var(--accent); }
 p { margin: .4rem 0; max-width: 48rem; }  .faint, caption, figcaption { color: var(--faint); }
-img { display: block; max-width: 100%; height: auto; border-radius: 6px; }
-figure { margin: 1.2rem 0; }  figcaption { margin-top: .4rem; font-size: .9rem; }
-.warnings { margin: 1rem 0; padding: .7rem 1rem .7rem 2rem; background: var(--warn); border-radius: 6px; }
+* { box-sizing: border-box; }  img { display: block; max-width: 100%; height: auto; border-radius: 6px; }
+figure { margin: 1.2rem 0; }  figcaption { font-size: .9rem; }  .warnings { margin: 1rem 0; padding: .7rem 1rem .7rem 2rem; background: var(--warn); border-radius: 6px; }
 table { border-collapse: collapse; background: var(--card); font-size: .9rem; font-variant-numeric: tabular-nums; }
 caption { caption-side: bottom; padding-top: .4rem; text-align: left; font-size: .85rem; }  a { color: var(--accent); }
 th, td { padding: .35rem .7rem; border: 1px solid var(--line); text-align: left; vertical-align: top; }
-.bar { display: block; height: .7rem; min-width: 2px; background: var(--accent); border-radius: 2px; }
+.bar { display: block; height: .7rem; min-width: 2px; background: var(--accent); }
 thead th { white-space: nowrap; }  .wide { min-width: 12rem; }  .scroll { overflow-x: auto; }  .n { text-align: right; white-space: nowrap; }
-pre { overflow-x: auto; padding: .8rem 1rem; background: var(--card); border: 1px solid var(--line); border-radius: 6px;
-  font: .85rem/1.45 ui-monospace, monospace; }
+pre { overflow-x: auto; padding: 1rem; background: var(--card); font: .85rem/1.45 ui-monospace, monospace; }
 )css";
 
 // The member at `path` ("errors/energy"), or nullptr where there is none or it is null.
@@ -57,9 +55,11 @@ double number(const Json& value, std::string_view path, double fallback) {
 std::string shown(const Json& value) {
   if (value.is_string()) return escape_html(value.get_ref<const std::string&>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_number_unsigned()) return fmt::format("{}", value.get<std::uint64_t>());
-  if (value.is_number_integer()) return fmt::format("{}", value.get<std::int64_t>());
-  if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
+  if (value.is_number_integer()) return value.dump();
+  if (value.is_number()) {
+    const double x = value.get<double>();
+    return std::abs(x) >= 1e4 && std::abs(x) < 1e9 ? fmt::format("{:.0f}", x) : fmt::format("{:.4g}", x);
+  }
   std::string text;
   if (value.is_array())
     for (const Json& item : value) text += (text.empty() ? "" : ", ") + shown(item);
