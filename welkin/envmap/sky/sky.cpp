@@ -12,6 +12,7 @@
 #include <welkin/envmap/sky/texel_average.h>
 #include <welkin/error.h>
 #include <welkin/sh/basis.h>
+#include <welkin/sphere/labelled_map.h>
 
 namespace welkin {
 namespace {
@@ -119,7 +120,10 @@ Image make_sky(const SkyOptions& options) {
       });
       break;
     case SkyKind::sh: fill_sh(options, image); break;
-    case SkyKind::labelled: throw Error("sky: labelled is not available");
+    case SkyKind::labelled:
+      image = labelled_map({Mapping::equirectangular, options.width, options.height}).image;
+      for (float& value : image.pixels) value *= static_cast<float>(options.scale);
+      break;
   }
   return image;
 }
