@@ -1,4 +1,6 @@
-#include <cstdio>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -6,9 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "commands.h"
+#include "flat_file.h"
+
 #include <welkin/error.h>
 #include <welkin/image/codecs/dds.h>
 #include <welkin/image/codecs/ktx2.h>
+#include <welkin/image/faults.h>
 #include <welkin/image/load.h>
 #include <welkin/image/output_file.h>
 #include <welkin/sphere/cube_layout.h>
@@ -16,23 +22,37 @@
 #include <welkin/sphere/orientation.h>
 #include <welkin/sphere/resample.h>
 
-#include "commands.h"
-
 // welkin convert: an environment from one mapping, layout, orientation, size and file format to another.
 
 namespace welkin {
 namespace {
 
 struct ConvertCommand {
-  std::string input, output, from, to, size, layout, format = "rgba16f";
+  std::string input, output, from, to, size, layout, format = "rgba16f", faults = "repair";
   double rotate = 0;
   bool mirror = false, mips = false;
 };
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension;
+void warn(const std::string& path, const std::string& message) {
+  fmt::print(stderr, "welkin: {}: warning: {}\n", path, message);
+}
+
+bool is_texture(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".ktx2" || extension == ".dds";
+}
+
+bool writes_six(const ConvertCommand& command) {
+  return command.layout == "six" || command.output.find("%s") != std::string::npos;
+}
+
+// Before any work: a name that nothing can be written to, and options that say nothing together.
+void check_output(const ConvertCommand& command) {
+  if (writes_six(command) || !is_texture(command.output)) check_flat_name(command.output);
+  if (writes_six(command) && !command.layout.empty() && command.layout != "six")
+    throw CLI::ValidationError("--layout", "a %s in the output's name writes six files");
+  if (command.mips && (!is_texture(command.output) || !command.layout.empty()))
+    throw CLI::ValidationError("--mips", "only cubes in .ktx2 and .dds have levels");
 }
 
 Mapping named_mapping(const std::string& name) {
@@ -41,13 +61,23 @@ Mapping named_mapping(const std::string& name) {
   return *mapping;
 }
 
+LoadedImage load_with_warnings(const std::string& path) {
+  LoadedImage loaded = load_image(path);
+  for (const std::string& warning : loaded.warnings) warn(path, warning);
+  return loaded;
+}
+
 // "sky_%s.hdr" names six faces, in whichever of the three ways of naming has its first file.
 SphereMap load_six(const std::string& pattern) {
   for (FaceNames style : {FaceNames::short_signs, FaceNames::long_signs, FaceNames::digits}) {
     const auto names = face_file_names(pattern, style);
     if (!std::filesystem::exists(names[0])) continue;
     std::vector<Image> faces;
-    for (const std::string& name : names) faces.push_back(load_image(name).flat);
+    for (const std::string& name : names) {
+      LoadedImage loaded = load_with_warnings(name);
+      if (loaded.is_cube()) throw Error(name, "is a whole cube, not one face");
+      faces.push_back(std::move(loaded.flat));
+    }
     return sphere_map_from_cube(cube_from_faces(faces));
   }
   throw Error(pattern, "no faces of that name: %s stands for px, posx or 0 and so on");
@@ -68,53 +98,78 @@ SphereMap load_flat(const ConvertCommand& command, Image image) {
   return {content->mapping, std::move(image)};
 }
 
-SphereMap load_map(const ConvertCommand& command) {
-  if (command.input.find("%s") != std::string::npos) return load_six(command.input);
-  LoadedImage loaded = load_image(command.input);
-  for (const std::string& warning : loaded.warnings) {
-    std::fprintf(stderr, "%s: warning: %s\n", command.input.c_str(), warning.c_str());
-  }
+SphereMap load_one_file(const ConvertCommand& command) {
+  LoadedImage loaded = load_with_warnings(command.input);
   if (loaded.is_cube()) return sphere_map_from_cube(std::move(loaded.cube.levels.front()));
+  return load_flat(command, std::move(loaded.flat));
+}
+
+// Errors of the readers name their file already, those of the layouts do not.
+SphereMap load_any(const ConvertCommand& command) {
   try {
-    return load_flat(command, std::move(loaded.flat));
+    return command.input.find("%s") != std::string::npos ? load_six(command.input) : load_one_file(command);
   } catch (const Error& error) {
+    if (!error.path().empty()) throw;
     throw Error(command.input, error.what());
   }
 }
 
+SphereMap load_map(const ConvertCommand& command) {
+  SphereMap map = load_any(command);
+  const FaultPolicy policy = command.faults == "refuse" ? FaultPolicy::refuse : FaultPolicy::repair;
+  const PixelFaults faults = repair_faults(map.image.pixels, policy, command.input);
+  if (faults.total() > 0)
+    warn(command.input, fmt::format("repaired {} NaN, {} infinite and {} negative values", faults.nan,
+                                    faults.infinite, faults.negative));
+  return map;
+}
+
 Mapping target_mapping(const ConvertCommand& command, const SphereMap& source) {
   if (!command.to.empty()) return named_mapping(command.to);
-  return command.layout.empty() ? source.mapping : Mapping::cube;
+  return command.layout.empty() && !writes_six(command) ? source.mapping : Mapping::cube;
 }
 
 int parse_dimension(const std::string& text, const std::string& whole) {
   int value = 0;
   for (char c : text) {
-    if (c < '0' || c > '9' || value > 100'000) throw Error("--size " + whole + " is not N or WxH");
+    if (c < '0' || c > '9' || value > 100'000) value = -1;
+    if (value < 0) break;
     value = 10 * value + (c - '0');
   }
-  if (value < 1) throw Error("--size " + whole + " is not N or WxH");
+  if (value < 1) throw CLI::ValidationError("--size", whole + " is not N or WxH");
   return value;
+}
+
+// A quarter of the equator each: a cube of N, an equirectangular map of 4N x 2N, and N of the others in between.
+MapShape as_fine_as(const MapShape& source, Mapping mapping) {
+  const bool equirect = source.mapping == Mapping::equirectangular, cube = source.mapping == Mapping::cube;
+  const int quarter = equirect ? source.width / 4 : cube ? source.width : source.height / 2;
+  const int n = std::max(quarter, 1);
+  return map_shape(mapping, mapping == Mapping::cube ? n : 2 * n);
+}
+
+MapShape parse_shape(const std::string& size, Mapping mapping) {
+  const std::size_t cross = size.find('x');
+  const int width = parse_dimension(size.substr(0, cross), size);
+  if (cross == std::string::npos) return map_shape(mapping, width);
+  const int height = parse_dimension(size.substr(cross + 1), size);
+  if (mapping == Mapping::cube && width != height)
+    throw CLI::ValidationError("--size", "faces of a cube are square");
+  return mapping == Mapping::cube ? map_shape(mapping, width) : MapShape{mapping, width, height};
 }
 
 // Without --size: the source's shape, or about its number of texels in another mapping.
 MapShape target_shape(const ConvertCommand& command, const SphereMap& source) {
   const Mapping mapping = target_mapping(command, source);
-  if (!command.size.empty()) {
-    const std::size_t cross = command.size.find('x');
-    if (cross == std::string::npos) return map_shape(mapping, parse_dimension(command.size, command.size));
-    const MapShape shape{mapping, parse_dimension(command.size.substr(0, cross), command.size),
-                         parse_dimension(command.size.substr(cross + 1), command.size)};
-    return mapping == Mapping::cube ? map_shape(mapping, shape.width) : shape;
+  if (command.size.empty())
+    return mapping == source.mapping ? source.shape() : as_fine_as(source.shape(), mapping);
+  const MapShape shape = parse_shape(command.size, mapping);
+  try {
+    check_map_shape(shape);
+  } catch (const Error& error) {
+    throw CLI::ValidationError("--size", error.what());
   }
-  if (mapping == source.mapping) return source.shape();
-  // A quarter of the equator each: a cube of N, an equirectangular map of 4N x 2N, and N of the others in between.
-  const auto quarter = [](MapShape s) {
-    if (s.mapping == Mapping::equirectangular) return s.width / 4;
-    return s.mapping == Mapping::cube ? s.width : s.height / 2;
-  };
-  const int n = quarter(source.shape()) > 0 ? quarter(source.shape()) : 1;
-  return map_shape(mapping, mapping == Mapping::cube ? n : 2 * n);
+  return shape;
 }
 
 // Texels are moved rather than interpolated wherever that does the job.
@@ -136,12 +191,13 @@ PixelFormat named_format(const std::string& name) {
   throw Error("unknown --format \"" + name + "\"");
 }
 
+// Nothing that a format did to the values goes unsaid.
 void save_encoded(const std::string& path, const EncodedTexture& texture, bool scale_in_file) {
   write_file(path, texture.bytes);
-  if (texture.stored_scale != 1 && !scale_in_file) {
-    std::fprintf(stderr, "%s: warning: values are stored divided by %g, which DDS cannot say\n", path.c_str(),
-                 texture.stored_scale);
-  }
+  if (texture.stored_scale != 1)
+    warn(path, fmt::format("values are stored divided by {:g}{}", texture.stored_scale,
+                           scale_in_file ? "; the key WelkinStoredScale says so" : ", which DDS cannot say"));
+  if (texture.clipped > 0) warn(path, fmt::format("{} values were clipped", texture.clipped));
 }
 
 // Cubes and flat images alike.
@@ -158,30 +214,36 @@ void save_texture(const ConvertCommand& command, const Texture& texture) {
   }
 }
 
+// All six appear, or none.
+void save_six(const std::string& pattern, const Cube& cube) {
+  const auto names = face_file_names(pattern, FaceNames::short_signs);
+  const auto faces = cube_faces(cube);
+  std::vector<OutputFile> files;
+  for (std::size_t i = 0; i < 6; ++i) files.push_back({names[i], encode_flat(names[i], faces[i])});
+  write_files(files);
+}
+
+void save_flat(const ConvertCommand& command, const Image& image) {
+  if (is_texture(command.output)) return save_texture(command, image);
+  write_file(command.output, encode_flat(command.output, image));
+}
+
 void save_cube(const ConvertCommand& command, Cube cube) {
-  const std::string extension = extension_of(command.output);
-  const bool six = command.layout == "six" || command.output.find("%s") != std::string::npos;
-  if (six) {
-    const auto names = face_file_names(command.output, FaceNames::short_signs);
-    const auto faces = cube_faces(cube);
-    for (std::size_t i = 0; i < 6; ++i) save_image(names[i], faces[i]);
-  } else if (command.layout.empty() && (extension == ".ktx2" || extension == ".dds")) {
-    save_texture(command, build_mips(std::move(cube), command.mips ? 0 : 1));
-  } else {
-    const std::string name = command.layout.empty() ? "hcross" : command.layout;
-    const Image flat = cube_to_layout(cube, cube_layout_from_name(name).value());
-    if (extension == ".ktx2" || extension == ".dds") return save_texture(command, flat);
-    save_image(command.output, flat);
-  }
+  if (writes_six(command)) return save_six(command.output, cube);
+  if (command.layout.empty() && is_texture(command.output))
+    return save_texture(command, build_mips(std::move(cube), command.mips ? 0 : 1));
+  const std::string name = command.layout.empty() ? "hcross" : command.layout;
+  save_flat(command, cube_to_layout(cube, cube_layout_from_name(name).value()));
 }
 
 void run(const ConvertCommand& command) {
-  SphereMap map = converted(command, load_map(command));
-  if (map.mapping == Mapping::cube) return save_cube(command, cube_from_sphere_map(std::move(map)));
-  if (!command.layout.empty()) throw Error("--layout is for cubes: say --to cube");
-  const std::string extension = extension_of(command.output);
-  if (extension == ".ktx2" || extension == ".dds") return save_texture(command, map.image);
-  save_image(command.output, map.image);
+  check_output(command);
+  SphereMap source = load_map(command);
+  const bool cube = target_mapping(command, source) == Mapping::cube;
+  if (!cube && (!command.layout.empty() || writes_six(command) || command.mips))
+    throw CLI::ValidationError("--layout, --mips and six files", "are for cubes: say --to cube");
+  SphereMap map = converted(command, std::move(source));
+  cube ? save_cube(command, cube_from_sphere_map(std::move(map))) : save_flat(command, map.image);
 }
 
 }  // namespace
@@ -196,7 +258,8 @@ void add_convert_command(CLI::App& app) {
       ->required();
   sub->add_option("-o,--output", command->output, "File to write: .hdr, .exr, .png, .ktx2 or .dds")
       ->required();
-  sub->add_option("--from", command->from, "What the input shows, where its proportion does not say")
+  sub->add_option("--from,--mapping", command->from,
+                  "What the input shows, where its proportion does not say")
       ->check(mappings);
   sub->add_option("--to", command->to, "Mapping of the output (default: as the input)")->check(mappings);
   sub->add_option("--size", command->size,
@@ -209,6 +272,12 @@ void add_convert_command(CLI::App& app) {
   sub->add_option("--format", command->format, "Texels of .ktx2 and .dds")
       ->check(CLI::IsMember({"rgba16f", "rgba32f", "rgb9e5"}))
       ->capture_default_str();
+  sub->add_option("--faults", command->faults, "NaN, infinite and negative values: repair or refuse")
+      ->check(CLI::IsMember({"repair", "refuse"}))
+      ->capture_default_str();
+  sub->footer(
+      "Examples:\n  welkin convert park.hdr --to cube --size 512 --mips -o park.ktx2\n"
+      "  welkin convert sky_%s.hdr --to equirectangular -o sky.exr");
   sub->callback([command] { run(*command); });
 }
 

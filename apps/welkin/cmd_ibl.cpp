@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -71,13 +72,40 @@ void print_errors(const IblErrors& e) {
 void print_files(const std::vector<IblFile>& files) {
   for (const IblFile& f : files) {
     if (f.stored_scale != 1)
-      fmt::print("note: {} is stored divided by {:g} to fit {}; multiply by it (the manifest{} says so)\n", f.name, f.stored_scale, f.format,
-                 f.name.ends_with(".ktx2") ? " and the file" : "");
+      fmt::print("note: {} is stored divided by {:g} to fit {}; multiply by it (the manifest{} so)\n", f.name, f.stored_scale, f.format,
+                 f.name.ends_with(".ktx2") ? " and the file say" : " says");
     if (f.clipped > 0) fmt::print("note: {} values of {} were clipped to fit {}\n", f.clipped, f.name, f.format);
   }
 }
 
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+
+// A folder that is made where it is missing, with its parents, and goes again, as long as it is empty, unless kept.
+class NewFolder {
+ public:
+  explicit NewFolder(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::path missing = std::filesystem::absolute(path).lexically_normal();
+    for (; !std::filesystem::exists(missing, error) && missing.has_relative_path(); missing = missing.parent_path())
+      made_.push_back(missing);
+    error.clear();
+    std::filesystem::create_directories(path, error);
+    if (!error) return;
+    remove();
+    throw Error(path.string(), "cannot make this folder: " + error.message());
+  }
+  ~NewFolder() { remove(); }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  void keep() { made_.clear(); }
+
+ private:
+  void remove() {
+    std::error_code ignored;
+    for (const std::filesystem::path& path : made_) std::filesystem::remove(path, ignored);
+  }
+  std::vector<std::filesystem::path> made_;  // innermost first
+};
 
 // All files of the set, written only when everything is made.
 void write_set(const std::filesystem::path& directory, std::vector<IblFile>& files, const nlohmann::ordered_json& manifest,
@@ -88,18 +116,25 @@ void write_set(const std::filesystem::path& directory, std::vector<IblFile>& fil
   out.push_back({directory / "preview.png", encode_png(make_preview(set))});
   out.push_back({directory / "index.html", bytes_of(make_report_html(manifest))});
   out.push_back({directory / "manifest.json", bytes_of(manifest.dump(2) + "\n")});
+  NewFolder folder(directory);
+  write_files(out);
+  folder.keep();
+}
+
+// What would fail only after all the work.
+void check(const IblCommand& command) {
+  if (command.container == "exr" && command.format == "rgb9e5")
+    throw CLI::ValidationError("--format", "OpenEXR has no rgb9e5; choose rgba16f or rgba32f, or another --container");
+  const int most = std::bit_width(static_cast<unsigned>(command.options.size));
+  if (command.options.levels > most)
+    throw CLI::ValidationError("--levels", fmt::format("a cube of {} has {} levels at most", command.options.size, most));
   std::error_code error;
-  const bool created = std::filesystem::create_directories(directory, error);
-  if (error) throw Error(directory.string(), "cannot make this folder: " + error.message());
-  try {
-    write_files(out);
-  } catch (...) {
-    if (created) std::filesystem::remove(directory, error);  // only if still empty
-    throw;
-  }
+  if (std::filesystem::exists(command.output, error) && !std::filesystem::is_directory(command.output, error))
+    throw Error(command.output, "is a file; the set needs a folder");
 }
 
 void run(IblCommand command) {
+  check(command);
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   IblOptions& options = command.options;
@@ -145,7 +180,8 @@ void add_ibl_command(CLI::App& app) {
   IblOptions& o = command->options;
   sub->add_option("-o,--output", command->output, "Folder for the set; made if it is missing")->required();
   sub->add_option("--size", o.size, "Texels along an edge of the largest level")->check(CLI::Range(1, 8192))->capture_default_str();
-  sub->add_option("--levels", o.levels, "Levels of the specular map; 0 chooses those down to 8 texels");
+  sub->add_option("--levels", o.levels, "Levels of the specular map; 0 chooses those down to 8 texels")
+      ->check(CLI::Range(0, 14));
   sub->add_option("--kernel", command->kernel, "ggx, phong or gaussian")->check(CLI::IsMember({"ggx", "phong", "gaussian"}))->capture_default_str();
   sub->add_option("--level-law", command->law, "Which level a roughness is in: linear, quadratic (Filament, three.js), log2 (Babylon.js)")
       ->check(CLI::IsMember({"linear", "quadratic", "log2"}))->capture_default_str();

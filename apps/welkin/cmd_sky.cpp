@@ -3,10 +3,12 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "commands.h"
+#include "flat_file.h"
 
 #include <welkin/envmap/sky/sky.h>
-#include <welkin/image/load.h>
+#include <welkin/error.h>
+#include <welkin/image/output_file.h>
 
 // welkin sky: writes a built-in environment. Every option is a key of the library's text form, so that
 // `welkin sky --kind day --elevation 10 -o a.hdr` and the input `sky:day,elevation=10` are the same map.
@@ -21,12 +23,22 @@ struct SkyCommand {
   bool no_sun = false;
 };
 
+// Whatever the library refuses here was said on the command line.
+Image make(const std::string& spec) {
+  try {
+    return make_sky(parse_sky(spec));
+  } catch (const Error& error) {
+    throw CLI::ValidationError(error.what());
+  }
+}
+
 void run(const SkyCommand& command) {
+  check_flat_name(command.output);
   std::string spec = "sky:" + command.kind;
   for (const auto& [key, value] : command.keys)
     if (!value.empty()) spec += "," + key + "=" + value;
   if (command.no_sun) spec += ",sun=0";
-  save_image(command.output, make_sky(parse_sky(spec)));
+  write_file(command.output, encode_flat(command.output, make(spec)));
 }
 
 }  // namespace
@@ -56,6 +68,7 @@ void add_sky_command(CLI::App& app) {
     sub->add_option("--" + keys[i].first, command->keys[i].second, keys[i].second);
   sub->add_flag("--no-sun", command->no_sun, "Leave the sun's disc out (day)");
   sub->add_option("-o,--output", command->output, "File to write: .hdr, .exr or .png")->required();
+  sub->footer("Example: welkin sky --kind day --elevation 10 --size 2048x1024 -o day.hdr");
   sub->callback([command] { run(*command); });
 }
 

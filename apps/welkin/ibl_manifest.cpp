@@ -77,6 +77,7 @@ Json files_json(const std::vector<IblFile>& files) {
                     {"bytes", f.bytes.size()}});
   list.push_back({{"name", "sh.json"}, {"quantity", "spherical-harmonic coefficients of the radiance"}, {"format", "json"}});
   list.push_back({{"name", "preview.png"}, {"quantity", "contact sheet shaded with these files"}, {"format", "png"}});
+  list.push_back({{"name", "index.html"}, {"quantity", "this manifest as a page"}, {"format", "html"}});
   return list;
 }
 

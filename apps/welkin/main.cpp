@@ -1,9 +1,12 @@
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -55,5 +58,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return fail(error.what());
   }
+  // What is still in the buffer may not fit on a full disk, and exit() would not say so.
+  if (std::fflush(stdout) != 0) return fail(("standard output: cannot write: " + std::string(std::strerror(errno))).c_str());
   return 0;
 }

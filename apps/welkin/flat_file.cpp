@@ -1,0 +1,56 @@
+#include "flat_file.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include <welkin/error.h>
+#include <welkin/image/codecs/exr.h>
+#include <welkin/image/codecs/hdr.h>
+#include <welkin/image/codecs/ldr.h>
+#include <welkin/image/faults.h>
+#include <welkin/image/range_fit.h>
+#include <welkin/image/tonemap.h>
+
+namespace welkin {
+namespace {
+
+bool is_radiance(const std::string& extension) { return extension == ".hdr" || extension == ".pic"; }
+
+std::vector<std::uint8_t> encode_radiance(const std::string& path, const Image& image) {
+  const PixelFaults faults = count_faults(image.pixels);
+  if (faults.negative > 0)
+    fmt::print(stderr,
+               "welkin: {}: warning: {} negative values became 0, which is the least that .hdr can hold\n",
+               path, faults.negative);
+  return encode_hdr(image);
+}
+
+std::vector<std::uint8_t> encode_openexr(const Image& image) {
+  const bool half =
+      largest_storable(image.pixels, PixelFormat::rgba32f) <= pixel_format_max(PixelFormat::rgba16f);
+  return encode_exr(image, {half ? ExrPixelType::half_float : ExrPixelType::single_float, 1});
+}
+
+}  // namespace
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension;
+}
+
+void check_flat_name(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (!is_radiance(extension) && extension != ".exr" && extension != ".png")
+    throw Error(path, "flat images are written as .hdr, .exr or .png; give the file one of these endings");
+}
+
+std::vector<std::uint8_t> encode_flat(const std::string& path, const Image& image) {
+  check_flat_name(path);
+  const std::string extension = extension_of(path);
+  if (is_radiance(extension)) return encode_radiance(path, image);
+  return extension == ".exr" ? encode_openexr(image) : encode_png(tone_map(image));
+}
+
+}  // namespace welkin

@@ -1,0 +1,21 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <welkin/image/image.h>
+
+namespace welkin {
+
+/// Throws Error naming the file unless encode_flat knows its extension.
+void check_flat_name(const std::string& path);
+
+/// A flat image in the format that the extension of `path` names: .hdr, .exr or .png (tone-mapped, for looking at).
+/// OpenEXR gets half floats, and single ones when a value is beyond what half floats hold. Says on standard error
+/// what .hdr cannot hold (negative values).
+std::vector<std::uint8_t> encode_flat(const std::string& path, const Image& image);
+
+/// The extension in lower case, with its dot.
+std::string extension_of(const std::string& path);
+
+}  // namespace welkin
