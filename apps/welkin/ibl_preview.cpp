@@ -84,7 +84,7 @@ void shade(const Light& light, const PreviewSphere& sphere, Vec3 normal, float* 
   if (matt) look_up_cube(light.set.irradiance, normal, diffuse);
   DfgValue dfg;
   if (material.glossy) {
-    const Vec3 reflected = Vec3{0, 0, 1} - 2 * cos_view * normal;
+    const Vec3 reflected = 2 * cos_view * normal - Vec3{0, 0, 1};
     dfg = look_up_dfg(light.set.dfg, cos_view, roughness);
     if (roughness > 0) {
       glossy_radiance(light, reflected, roughness, glossy);
@@ -96,7 +96,7 @@ void shade(const Light& light, const PreviewSphere& sphere, Vec3 normal, float* 
   for (int c = 0; c < 3; ++c) {
     const double reflectance = material.f0[c] * dfg.scale + dfg.bias;
     const double let_through = (1 - reflectance) * material.albedo[c];
-    rgb[c] = static_cast<float>(glossy[c] + let_through * diffuse[c] / pi);
+    rgb[c] = static_cast<float>(reflectance * glossy[c] + let_through * diffuse[c] / pi);
   }
 }
 

@@ -365,7 +365,7 @@ std::string escape_html(std::string_view text) {
   for (char c : text) {
     switch (c) {
       case '&': escaped += "&amp;"; break;
-      case '\v': escaped += "&lt;"; break;
+      case '<': escaped += "&lt;"; break;
       case '>': escaped += "&gt;"; break;
       case '"': escaped += "&quot;"; break;
       case '\'': escaped += "&#39;"; break;
