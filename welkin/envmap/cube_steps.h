@@ -9,7 +9,10 @@ namespace welkin {
 /// cube has no steps.
 double edge_step_ratio(const Cube& cube);
 
-/// Sum over the texels of luminance * solid angle (3 channels).
+/// The integral of luminance over the sphere (3 channels), from texels that are samples of a smooth function at their
+/// centres: the midpoint rule on each face, with its leading error removed by end corrections where a face has four
+/// texels or more, so O(size^-4). Scaled so that it is exact for constants. For coarse levels a plain sum of texels
+/// times solid angles would measure the sampling, not the level.
 double cube_energy(const Cube& cube);
 
 }  // namespace welkin

@@ -53,11 +53,20 @@ double transform_cost(int degree, int map_rows) {
   return 0.5 * degree * degree * (0.5 * map_rows + degree) * 12;
 }
 
-// A kernel integral over one texel costs about 400 of those units.
+// The same unit for a kernel integral over a texel with n nodes a side: 500 n^2. Beyond 12 nodes the patch is quartered
+// around the axis until they are enough.
+double integral_cost(double nodes) {
+  constexpr double most = 12;
+  return 500 * (nodes <= most ? nodes * nodes : most * most * (4 + 12 * std::log2(nodes / most)));
+}
+
 double core_cost(const FilterTarget& target, double near_angle, int map_rows) {
-  const double texel = pi / map_rows;
+  const double texel = pi / map_rows, width = angular_width(target.kernel);
   const double covered = pi * near_angle * near_angle / (texel * texel) + 4 * near_angle / texel + 1;
-  return 6.0 * target.size * target.size * covered * 400;
+  const double around_axis = std::min(covered, 9.0);
+  const double most = integral_cost(patch_nodes(std::min(width, 0.25 * near_angle), texel / 2));
+  const double typical = integral_cost(patch_nodes(0.25 * near_angle, texel / 2));
+  return 6.0 * target.size * target.size * (around_axis * most + (covered - around_axis) * typical);
 }
 
 }  // namespace

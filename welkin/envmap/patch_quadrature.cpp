@@ -67,7 +67,8 @@ double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SphereP
   const double distance = std::max(0.0, to_centre - std::numbers::sqrt2 * half);
   // The window varies over about a quarter of its angle.
   const double window = near_angle > 0 ? 0.25 * near_angle : 10.0;
-  const int nodes = patch_nodes(std::min(window, std::hypot(distance, angular_width(kernel))), half);
+  // One node more than the asymptotic rate asks for pays for the constant before it.
+  const int nodes = patch_nodes(std::min(window, std::hypot(distance, angular_width(kernel))), half) + 1;
   if (nodes <= max_nodes) return integrate_with_nodes(kernel, direction, patch, near_angle, nodes);
   double sum = 0;
   for (int quarter = 0; quarter < 4; ++quarter) {

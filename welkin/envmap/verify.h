@@ -10,14 +10,14 @@ namespace welkin {
 struct VerifyOptions {
   int directions = 64;  ///< per level and test, drawn at random besides the brightest texel and its surroundings
   std::uint32_t seed = 1;
-  std::function<void(double)> progress;  ///< told the share done, in [0, 1], from the calling thread
+  std::function<void(double)> progress{};  ///< told the share done, in [0, 1], from the calling thread
 };
 
 /// Errors against filter_brute_force. mean is the level's mean luminance over the sphere.
 struct LevelErrors {
   double relative_rms = 0;       ///< at texel centres: RMS of the error over RMS of the truth, uniform over the texels
   double max_over_mean = 0;      ///< at texel centres: largest error of a channel over the mean
-  double energy = 0;             ///< sum of texel * solid angle over the map's energy, minus 1 (luminance)
+  double energy = 0;             ///< integral of the level (see cube_energy) over that of the map, minus 1 (luminance)
   double edge_step = 0;          ///< mean step across the 12 edges over mean step inside faces; 0 for one texel a face
   double lookup_relative_rms = 0;    ///< seamless bilinear look-up in this level in random directions
   double lookup_max_over_mean = 0;
