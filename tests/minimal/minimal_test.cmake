@@ -1,0 +1,58 @@
+# cmake -DPROGRAM=... -DEXAMPLE=... -DWORK=... -P minimal_test.cmake
+file(REMOVE_RECURSE "${WORK}")
+file(MAKE_DIRECTORY "${WORK}")
+
+function(run expected_result)
+  execute_process(COMMAND "${PROGRAM}" ${ARGN} WORKING_DIRECTORY "${WORK}"
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  if(NOT result STREQUAL "${expected_result}")
+    message(FATAL_ERROR "${EXAMPLE} ${ARGN}: exit code ${result}, expected ${expected_result}\n${output}${errors}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+  set(errors "${errors}" PARENT_SCOPE)
+endfunction()
+
+function(expect_output pattern)
+  if(NOT output MATCHES "${pattern}")
+    message(FATAL_ERROR "${EXAMPLE}: its output does not match ${pattern}:\n${output}")
+  endif()
+endfunction()
+
+# The first bytes of a file, as hexadecimal.
+function(expect_file name magic)
+  if(NOT EXISTS "${WORK}/${name}")
+    message(FATAL_ERROR "${EXAMPLE} did not write ${name}")
+  endif()
+  file(READ "${WORK}/${name}" bytes LIMIT 16 HEX)
+  if(NOT bytes MATCHES "^${magic}")
+    message(FATAL_ERROR "${EXAMPLE}: ${name} begins with ${bytes}, not ${magic}")
+  endif()
+endfunction()
+
+run(0)
+if(EXAMPLE STREQUAL "minimal_ibl")
+  expect_output("level 0: 128 x 128 +texels, perceptual roughness 0.000")
+  expect_output("perceptual roughness 1.000")
+  expect_file(specular.ktx2 ab4b5458203230bb)
+elseif(EXAMPLE STREQUAL "minimal_sh")
+  # A white world: L_00 = 2 sqrt(pi), irradiance pi everywhere.
+  run(0 sky:constant,size=64x32)
+  expect_output("L\\(0, 0\\) =  3.54491")
+  expect_output("faces \\(0, 1, 0\\): 3.1416 3.1416 3.1416")
+elseif(EXAMPLE STREQUAL "minimal_filter")
+  expect_output("ggx alpha 0.25")
+  expect_file(filtered.png 89504e47)
+elseif(EXAMPLE STREQUAL "minimal_convert")
+  expect_output("octahedral.hdr: 256 x 256")
+  expect_file(octahedral.hdr 233f52414449414e4345)
+  # White over the whole sphere: 4 pi before and after.
+  run(0 sky:constant,size=64x32)
+  expect_output("energy 12.5664 before, 12.5664 after")
+else()
+  message(FATAL_ERROR "no expectations for ${EXAMPLE}")
+endif()
+
+run(1 missing.hdr)
+if(NOT errors MATCHES "^${EXAMPLE}: [^\n]*missing.hdr[^\n]*\n$")
+  message(FATAL_ERROR "${EXAMPLE}: a missing file should give one line that names it, not:\n${errors}")
+endif()
