@@ -76,7 +76,7 @@ void add_node_row(const ZonalKernel& kernel, const LookUp& at, const RowView& ro
 
 // The texels of a row that may be too near for two nodes a side get the adaptive rule.
 void replace_near_texels(const ZonalKernel& kernel, const LookUp& at, const RowView& row, std::vector<double>& weights) {
-  const double reach = 18 * row.half_texel;
+  const double reach = (two_node_distance + 2) * row.half_texel;
   const double flat = std::sqrt(std::max(0.0, reach * reach - row.distance * row.distance));
   const double sine = std::min({std::sin(at.theta), std::sin(row.centre - row.half), std::sin(row.centre + row.half)});
   const double span = std::min(pi, pi / 2 * flat / std::max(1e-9, sine));
@@ -95,8 +95,7 @@ void row_weights(const ZonalKernel& kernel, const LookUp& at, const RowView& row
                  std::vector<double>& weights) {
   std::fill(weights.begin(), weights.end(), 0.0);
   const double singularity = std::hypot(row.distance, angular_width(kernel));
-  const int nodes = patch_nodes(singularity, row.half_texel);
-  if (nodes == 1) {
+  if (singularity > one_node_distance * row.half_texel) {
     const double area = equirect_texel_solid_angle(row.width, row.height, row.row);
     add_node_row(kernel, at, row, row.centre, area, 0, scratch, weights);
     return;
@@ -106,7 +105,7 @@ void row_weights(const ZonalKernel& kernel, const LookUp& at, const RowView& row
     const double area = std::sin(theta) * row.half * pi / row.width;
     for (int column_node : {1, 2}) add_node_row(kernel, at, row, theta, area, column_node, scratch, weights);
   }
-  if (nodes > 2) replace_near_texels(kernel, at, row, weights);
+  if (singularity < two_node_distance * row.half_texel) replace_near_texels(kernel, at, row, weights);
 }
 
 void filter_one(const Image& radiance, Vec3 direction, std::span<const ZonalKernel> kernels, double* out) {

@@ -26,15 +26,12 @@ double half_side(const SpherePatch& patch) {
   return std::max(0.5 * (patch.theta1 - patch.theta0), 0.5 * (patch.phi1 - patch.phi0) * std::sin(theta));
 }
 
-// The distance (chord) at which `nodes` a side suffice, by the rule of patch_nodes.
-double needed_distance(int nodes, double half) { return half * std::sinh(6.9 / nodes); }
-
 }  // namespace
 
 BrightSum::BrightSum(std::span<const BrightTexel> texels, const ZonalKernel& kernel) : texels_(texels), kernel_(kernel) {
   const double width = angular_width(kernel);
   for (const BrightTexel& texel : texels)
-    if (width < needed_distance(1, half_side(texel.patch))) nodes_ = 4;
+    if (width < one_node_distance * half_side(texel.patch)) nodes_ = 4;
   for (std::vector<double>* array : {&x_, &y_, &z_, &area_, &one_minus_cos_, &value_}) array->resize(texels.size() * nodes_);
   for (std::size_t t = 0; t < texels.size(); ++t) {
     const SpherePatch& patch = texels[t].patch;
@@ -49,7 +46,7 @@ BrightSum::BrightSum(std::span<const BrightTexel> texels, const ZonalKernel& ker
       z_[i] = std::sin(theta) * std::sin(phi);
       area_[i] = nodes_ == 1 ? texels[t].solid_angle : std::sin(theta) * half_theta * half_phi;
     }
-    const double half = half_side(patch), need = needed_distance(nodes_ == 1 ? 1 : 2, half);
+    const double half = half_side(patch), need = (nodes_ == 1 ? one_node_distance : two_node_distance) * half;
     const double reach = width < need ? need + 1.5 * half : 0;
     reach_squared_.push_back(reach * reach);
   }

@@ -53,10 +53,10 @@ double transform_cost(int degree, int map_rows) {
   return 0.5 * degree * degree * (0.5 * map_rows + degree) * 12;
 }
 
-// The same unit for a kernel integral over a texel with n nodes a side: 500 n^2. Beyond 12 nodes the patch is quartered
+// The same unit for a kernel integral over a texel with n nodes a side: 500 n^2. Beyond 16 nodes the patch is quartered
 // around the axis until they are enough.
 double integral_cost(double nodes) {
-  constexpr double most = 12;
+  constexpr double most = 16;
   return 500 * (nodes <= most ? nodes * nodes : most * most * (4 + 12 * std::log2(nodes / most)));
 }
 

@@ -10,7 +10,7 @@
 namespace welkin {
 namespace {
 
-constexpr int max_nodes = 12;
+constexpr int max_nodes = 16;
 
 const QuadratureRule& rule_of(int nodes) {
   static const std::array<QuadratureRule, max_nodes + 1> rules = [] {
@@ -57,7 +57,7 @@ SpherePatch equirect_patch(int width, int height, int x, int y) {
 int patch_nodes(double singularity_distance, double half_width) {
   const double ratio = singularity_distance / half_width;
   const double log_rho = std::asinh(ratio);
-  return std::max(1, static_cast<int>(std::ceil(6.9 / log_rho)));  // 2 * 6.9 = ln 1e6
+  return std::max(2, static_cast<int>(std::ceil(9.2 / log_rho)));  // 2 * 9.2 = ln 1e8
 }
 
 double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& patch, double near_angle) {
@@ -67,8 +67,7 @@ double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SphereP
   const double distance = std::max(0.0, to_centre - std::numbers::sqrt2 * half);
   // The window varies over about a quarter of its angle.
   const double window = near_angle > 0 ? 0.25 * near_angle : 10.0;
-  // One node more than the asymptotic rate asks for pays for the constant before it.
-  const int nodes = patch_nodes(std::min(window, std::hypot(distance, angular_width(kernel))), half) + 1;
+  const int nodes = patch_nodes(std::min(window, std::hypot(distance, angular_width(kernel))), half);
   if (nodes <= max_nodes) return integrate_with_nodes(kernel, direction, patch, near_angle, nodes);
   double sum = 0;
   for (int quarter = 0; quarter < 4; ++quarter) {
