@@ -32,7 +32,7 @@ struct IblCommand {
   std::string kernel = "ggx", law = "linear", diffuse = "frequency";
   std::string container = "ktx2", format = "rgba16f", range = "scale";
   int zstd_level = 0;
-  bool verify = false;
+  bool multiple_scattering = false, verify = false;
   VerifyOptions verify_options;
   bool json = false;
 };
@@ -141,6 +141,7 @@ void run(IblCommand command) {
   options.kernel = parse_kernel(command.kernel);
   options.law = parse_level_law(command.law);
   options.diffuse = parse_diffuse(command.diffuse);
+  if (command.multiple_scattering) options.dfg_form = DfgForm::scale_bias_with_multiple_scattering;
   const IblFileOptions file_options{parse_container(command.container), parse_pixel_format(command.format),
                                     command.range == "clip" ? RangePolicy::clip : RangePolicy::scale, command.zstd_level, options.law};
   const Environment environment = load(command.in);
@@ -190,6 +191,8 @@ void add_ibl_command(CLI::App& app) {
       ->check(CLI::IsMember({"frequency", "sh", "brute"}))->capture_default_str();
   sub->add_option("--sh-degree", o.sh_degree, "Degree of the coefficients in sh.json")->check(CLI::Range(0, max_projection_degree))->capture_default_str();
   sub->add_option("--dfg-size", o.dfg_size, "Texels along an edge of the DFG table")->check(CLI::Range(1, 4096))->capture_default_str();
+  sub->add_flag("--dfg-multiple-scattering", command->multiple_scattering,
+                "Put the light that scatters between facets into the DFG table; without it, shaders add it (see docs/ibl.md)");
   sub->add_option("--format", command->format, "Of the cubes")->check(CLI::IsMember({"rgba16f", "rgba32f", "rgb9e5"}))->capture_default_str();
   sub->add_option("--container", command->container, "ktx2, dds or exr")->check(CLI::IsMember({"ktx2", "dds", "exr"}))->capture_default_str();
   sub->add_option("--range", command->range, "Values too large for the format: scale (store all divided by a power of two) or clip")

@@ -1,7 +1,9 @@
 #include "ibl_manifest.h"
 
 #include <cmath>
+#include <filesystem>
 
+#include <welkin/envmap/sky/sky.h>
 #include <welkin/envmap/statistics.h>
 
 namespace welkin {
@@ -81,6 +83,11 @@ Json files_json(const std::vector<IblFile>& files) {
   return list;
 }
 
+// The file's name alone: a set says where it came from, not where that was on the disk.
+std::string source_name(const std::string& source) {
+  return is_sky_spec(source) ? source : std::filesystem::path(source).filename().string();
+}
+
 const char* method_name(DiffuseMethod method) {
   switch (method) {
     case DiffuseMethod::sh: return "sh";
@@ -96,7 +103,7 @@ Json make_manifest(const ManifestInput& in) {
   const std::optional<IblErrors>& errors = *in.errors;
   Json json;
   json["generator"] = "welkin 0.1.0";
-  json["source"] = in.environment->source;
+  json["source"] = source_name(in.environment->source);
   json["description"] = in.environment->description;
   json["orientation"] = {{"rotate_degrees", in.rotate_degrees}, {"mirror", in.mirror}};
   json["input"] = input_json(*in.environment);
@@ -106,7 +113,7 @@ Json make_manifest(const ManifestInput& in) {
   json["levels"] = levels_json(set, errors);
   json["irradiance"] = {{"size", set.irradiance.size}, {"method", method_name(in.options->diffuse)}};
   json["sh"] = {{"degree", set.radiance_sh.max_degree}};
-  json["dfg"] = {{"size", set.dfg.size}};
+  json["dfg"] = {{"size", set.dfg.size}, {"multiple_scattering_included", in.options->dfg_form != DfgForm::scale_bias}};
   if (errors) {
     json["irradiance"]["errors"] = errors_json(errors->irradiance);
     json["sh"]["irradiance_mean_error"] = errors->sh_mean;

@@ -129,7 +129,7 @@ IblSet make_ibl(const Image& radiance, const IblOptions& given) {
     }
   });
   if (options.diffuse == DiffuseMethod::frequency) set.seconds_irradiance = set.filter.levels.back().seconds;
-  set.seconds_dfg = timed([&] { set.dfg = make_dfg_table({options.dfg_size, DfgForm::scale_bias}); });
+  set.seconds_dfg = timed([&] { set.dfg = make_dfg_table({options.dfg_size, options.dfg_form}); });
   progress(1);
   return set;
 }

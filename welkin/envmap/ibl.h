@@ -25,6 +25,7 @@ struct IblOptions {
   DiffuseMethod diffuse = DiffuseMethod::frequency;
   int sh_degree = 2;            ///< of the radiance coefficients, 0 to max_projection_degree
   int dfg_size = 128;           ///< 1 to 4096
+  DfgForm dfg_form = DfgForm::scale_bias;
   FilterOptions filter;         ///< its progress covers all of make_ibl
 };
 
@@ -43,7 +44,7 @@ struct IblSet {
   std::vector<IblLevel> levels;
   Cube irradiance;             ///< E = integral of L max(0, cos): pi times the radiance of a constant environment
   ShCoefficients radiance_sh;  ///< of the radiance, nothing convolved or divided
-  DfgTable dfg;                ///< (scale, bias)
+  DfgTable dfg;                ///< (scale, bias), in the form that the options ask for
   FilterReport filter;
   double seconds_environment = 0, seconds_irradiance = 0, seconds_sh = 0, seconds_dfg = 0;
 };

@@ -158,13 +158,25 @@ void verify_nine_coefficients(const Image& radiance, const VerifyOptions& verify
   errors.directions += static_cast<int>(directions.size());
 }
 
-double verify_dfg(const DfgTable& table) {
+// The stored form's two numbers, straight from the integral: for the compensated form, the line through the reflectance
+// at F0 = 0.04 and F0 = 1.
+DfgValue exact_dfg(double cos_view, double alpha, DfgForm form) {
+  const DfgValue single = integrate_dfg(cos_view, alpha);
+  if (form == DfgForm::scale_bias) return single;
+  const auto reflectance = [&](double f0) {
+    return (f0 * single.scale + single.bias) * multiple_scattering_factor(f0, single.albedo());
+  };
+  const double scale = (reflectance(1) - reflectance(0.04)) / 0.96;
+  return {scale, reflectance(1) - scale};
+}
+
+double verify_dfg(const DfgTable& table, DfgForm form) {
   double largest = 0;
   const int step = std::max(1, table.size / 16);
   for (int j = step / 2; j < table.size; j += step)
     for (int i = step / 2; i < table.size; i += step) {
       const double r = (j + 0.5) / table.size;
-      const DfgValue exact = integrate_dfg((i + 0.5) / table.size, r * r);
+      const DfgValue exact = exact_dfg((i + 0.5) / table.size, r * r, form);
       const float* texel = &table.scale_bias[(static_cast<std::size_t>(j) * table.size + i) * 2];
       largest = std::max({largest, std::abs(static_cast<double>(texel[0]) - exact.scale), std::abs(static_cast<double>(texel[1]) - exact.bias)});
     }
@@ -188,7 +200,7 @@ IblErrors verify_ibl(const IblSet& set, const Image& radiance, const IblOptions&
   errors.irradiance = verify_cube(radiance, set.irradiance, make_lambert_kernel(), pi, verify);
   verify_trilinear(set, radiance, options, verify, errors);
   verify_nine_coefficients(radiance, verify, errors);
-  errors.dfg_max = verify_dfg(set.dfg);
+  errors.dfg_max = verify_dfg(set.dfg, options.dfg_form);
   errors.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return errors;
 }

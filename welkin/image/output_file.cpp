@@ -114,6 +114,10 @@ void write_file(const std::filesystem::path& path, std::span<const std::uint8_t>
 void write_files(std::span<const OutputFile> files) {
   std::deque<UnfinishedFile> unfinished;
   for (const OutputFile& file : files) fill(unfinished.emplace_back(temporary_name(file.path)), file.path, file.bytes);
+  // Renaming onto a folder fails: found out before the first file is replaced, not at the last.
+  std::error_code ignored;
+  for (const OutputFile& file : files)
+    if (std::filesystem::is_directory(file.path, ignored)) fail(file.path, "cannot write", EISDIR);
   for (std::size_t i = 0; i < files.size(); ++i) unfinished[i].rename_to(files[i].path);
 }
 
