@@ -181,7 +181,7 @@ void add_ibl_command(CLI::App& app) {
   IblOptions& o = command->options;
   sub->add_option("-o,--output", command->output, "Folder for the set; made if it is missing")->required();
   sub->add_option("--size", o.size, "Texels along an edge of the largest level")->check(CLI::Range(1, 8192))->capture_default_str();
-  sub->add_option("--levels", o.levels, "Levels of the specular map; 0 chooses those down to 8 texels")
+  sub->add_option("--levels", o.levels, "Levels of the specular map; 0 chooses those down to 4 texels")
       ->check(CLI::Range(0, 14));
   sub->add_option("--kernel", command->kernel, "ggx, phong or gaussian")->check(CLI::IsMember({"ggx", "phong", "gaussian"}))->capture_default_str();
   sub->add_option("--level-law", command->law, "Which level a roughness is in: linear, quadratic (Filament, three.js), log2 (Babylon.js)")

@@ -76,7 +76,7 @@ Cube cube_by_direction(int size, Value&& value) {
 
 int default_levels(int size) {
   int levels = 1;
-  while ((size >> levels) >= 8) ++levels;
+  while ((size >> levels) >= 4) ++levels;
   return levels;
 }
 

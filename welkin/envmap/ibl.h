@@ -49,8 +49,8 @@ struct IblSet {
   double seconds_environment = 0, seconds_irradiance = 0, seconds_sh = 0, seconds_dfg = 0;
 };
 
-/// As many levels as leave the last one 8 texels wide, so that a look-up between texels and levels adds little; see
-/// docs/methods.md for the measured error against the number of levels.
+/// As many levels as leave the last one 4 texels wide: fewer blend lobes that are too different, more end in levels
+/// whose few texels blur the look-up. See docs/methods.md for the measured error against the number of levels.
 int default_levels(int size);
 
 /// Makes the set from an equirectangular map of 3 channels, finite and >= 0. Throws Error for options out of range.
