@@ -19,18 +19,18 @@ struct Curve {
   std::vector<std::pair<int, double>> points;  // levels, relative RMS
 };
 
-/// One panel a map (three curves each, in the order of `curves`), error on a logarithmic axis from 0.3 % to 30 %.
+/// One panel a map (three curves each, in the order of `curves`), error on a logarithmic axis from 1 % to 30 %.
 inline void write_levels_figure(const std::string& path, const std::vector<Curve>& curves) {
   const char* const colours[] = {"#c0392b", "#2471a3", "#1e8449"};
   const auto px = [](std::size_t panel, int levels) {
     return 60 + 250.0 * static_cast<double>(panel) + 32 * (levels - 4);
   };
-  const auto py = [](double error) { return 30 + 110 * (std::log10(0.3) - std::log10(error)); };
+  const auto py = [](double error) { return 30 + 149 * (std::log10(0.3) - std::log10(error)); };
   std::string svg =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 800 300\" font-family=\"sans-serif\" "
       "font-size=\"11\">\n"
       "<rect width=\"800\" height=\"300\" fill=\"white\"/>\n";
-  for (double e : {0.003, 0.01, 0.03, 0.1, 0.3})
+  for (double e : {0.01, 0.03, 0.1, 0.3})
     svg += fmt::format(
         "<line x1=\"55\" x2=\"770\" y1=\"{0:.1f}\" y2=\"{0:.1f}\" stroke=\"#ddd\"/>"
         "<text x=\"50\" y=\"{1:.1f}\" text-anchor=\"end\">{2:g} %</text>\n",

@@ -22,7 +22,6 @@ namespace {
 using namespace welkin;
 
 using Wide = long double;
-constexpr double pi = std::numbers::pi;
 
 Image noise(int width, int height) {
   Image map(width, height);
