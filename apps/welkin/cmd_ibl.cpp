@@ -53,9 +53,10 @@ void print_levels(const IblSet& set, const std::optional<IblErrors>& errors) {
     fmt::print("{:>5} {:>5} {:>10.4f} {:>9.5f}", k, set.specular.levels[k].size, level.perceptual_roughness, level.alpha);
     if (errors && k > 0) {
       const LevelErrors& e = errors->levels[k];
-      fmt::print("   {:.2e}  {:.2e} {:>9.1e} {:>10.3f} {:>12.2e}", e.relative_rms, e.max_over_mean, e.energy, e.edge_step, e.lookup_relative_rms);
+      fmt::print("   {:.2e}  {:.2e} {:>9.1e} {:>10} {:>12.2e}", e.relative_rms, e.max_over_mean, e.energy,
+                 e.edge_step > 0 ? fmt::format("{:.3f}", e.edge_step) : "-", e.lookup_relative_rms);
     } else if (errors) {
-      fmt::print("     mirror            {:>9.1e} {:>10.3f}", errors->levels[0].energy, errors->levels[0].edge_step);
+      fmt::print("     mirror            {:>9.1e}", errors->levels[0].energy);
     }
     fmt::print("\n");
   }

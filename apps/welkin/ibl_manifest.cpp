@@ -37,12 +37,13 @@ Json conventions_json() {
 }
 
 Json errors_json(const LevelErrors& e) {
-  return {{"relative_rms", e.relative_rms},
-          {"max_over_mean", e.max_over_mean},
-          {"energy", e.energy},
-          {"edge_step", e.edge_step},
-          {"lookup_relative_rms", e.lookup_relative_rms},
-          {"lookup_max_over_mean", e.lookup_max_over_mean}};
+  Json json{{"relative_rms", e.relative_rms},
+            {"max_over_mean", e.max_over_mean},
+            {"energy", e.energy},
+            {"lookup_relative_rms", e.lookup_relative_rms},
+            {"lookup_max_over_mean", e.lookup_max_over_mean}};
+  if (e.edge_step > 0) json["edge_step"] = e.edge_step;  // 0: too small to be measured
+  return json;
 }
 
 Json levels_json(const IblSet& set, const std::optional<IblErrors>& errors) {
@@ -59,7 +60,7 @@ Json levels_json(const IblSet& set, const std::optional<IblErrors>& errors) {
       json["seconds"] = level.report.seconds;
     }
     if (errors && k > 0) json["errors"] = errors_json(errors->levels[k]);
-    if (errors && k == 0) json["errors"] = {{"energy", errors->levels[0].energy}, {"edge_step", errors->levels[0].edge_step}};
+    if (errors && k == 0) json["errors"] = {{"energy", errors->levels[0].energy}};
     levels.push_back(std::move(json));
   }
   return levels;

@@ -25,12 +25,12 @@ Cube cube_of(int size, double step_on_face_2) {
 }
 
 TEST(EdgeStep, IsOneForASmoothFunctionAndMoreForASeam) {
-  // Lines bend where they cross an edge, so the ratio is near 1, not 1.
-  EXPECT_NEAR(edge_step_ratio(cube_of(64, 0)), 1, 0.06);
-  EXPECT_NEAR(edge_step_ratio(cube_of(256, 0)), 1, 0.06);
-  for (int size : {2, 8}) EXPECT_LT(edge_step_ratio(cube_of(size, 0)), 1.05) << size;
+  // Extrapolation is exact for cubics along a line; on a coarse cube the sphere bends away within five texels.
+  EXPECT_NEAR(edge_step_ratio(cube_of(8, 0)), 1, 0.05);
+  EXPECT_NEAR(edge_step_ratio(cube_of(64, 0)), 1, 0.01);
+  EXPECT_NEAR(edge_step_ratio(cube_of(256, 0)), 1, 0.01);
   EXPECT_GT(edge_step_ratio(cube_of(64, 0.1)), 1.5);
-  EXPECT_EQ(edge_step_ratio(cube_of(1, 0)), 0);
+  EXPECT_EQ(edge_step_ratio(cube_of(4, 0)), 0);
   EXPECT_EQ(edge_step_ratio(Cube(8)), 0);
 }
 

@@ -39,7 +39,7 @@ TEST(Ibl, VerificationPassesOnASunMap) {
   for (std::size_t k = 1; k < errors.levels.size(); ++k) {
     EXPECT_LT(errors.levels[k].relative_rms, 1e-4) << k;
     EXPECT_LT(errors.levels[k].max_over_mean, 1e-3) << k;
-    EXPECT_LT(errors.levels[k].edge_step, 1.25) << k;
+    EXPECT_LT(errors.levels[k].edge_step, 1.2) << k;  // the sun's lobe is two texels wide: coarse to predict from
   }
   EXPECT_LT(std::abs(errors.levels[0].energy), 1e-4);
   EXPECT_LT(errors.irradiance.relative_rms, 1e-4);

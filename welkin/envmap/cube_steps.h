@@ -3,10 +3,10 @@
 
 namespace welkin {
 
-/// Mean absolute step between neighbouring texels (all channels) across the 12 edges of a cube, over the mean step
-/// between neighbours inside faces along the lines that meet those edges at right angles, both divided by the angle
-/// between the texel centres: 1 for a smooth function, more where faces were filtered apart. 0 when size < 2 or the
-/// cube has no steps.
+/// Mean absolute step (all channels) between neighbouring texels across the 12 edges of a cube, over the step that the
+/// texels inside the two faces predict there: 1 for a function that knows nothing of faces, more where faces were
+/// filtered apart. Steps are taken per unit of the way at right angles to the edge. The prediction is extrapolated from the two nearest steps on either side. For smooth content: noise from texel to texel predicts
+/// nothing. 0 when there is nothing to step over, or too little to predict from (size < 6).
 double edge_step_ratio(const Cube& cube);
 
 /// The integral of luminance over the sphere (3 channels), from texels that are samples of a smooth function at their

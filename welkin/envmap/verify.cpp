@@ -104,12 +104,11 @@ LevelErrors verify_cube(const Image& radiance, const Cube& cube, const ZonalKern
           lookups.relative_rms(), lookups.largest / mean};
 }
 
-// Level 0 is made of area averages, not of filtered values: what can be said of it is its energy and its edges.
+// Level 0 is made of area averages, not of filtered values: what can be said of it is its energy.
 LevelErrors verify_environment(const Image& radiance, const Cube& cube) {
   LevelErrors errors;
   const std::vector<double> energy = map_energy(sphere_map_from_cube(cube));
   errors.energy = luminance(energy.data()) / map_flux(radiance) - 1;
-  errors.edge_step = edge_step_ratio(cube);
   return errors;
 }
 

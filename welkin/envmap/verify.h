@@ -18,7 +18,7 @@ struct LevelErrors {
   double relative_rms = 0;       ///< at texel centres: RMS of the error over RMS of the truth, uniform over the texels
   double max_over_mean = 0;      ///< at texel centres: largest error of a channel over the mean
   double energy = 0;             ///< integral of the level (see cube_energy) over that of the map, minus 1 (luminance)
-  double edge_step = 0;          ///< mean step across the 12 edges over mean step inside faces; 0 for one texel a face
+  double edge_step = 0;          ///< step across the 12 edges over the step predicted there, see edge_step_ratio; 0: not measured
   double lookup_relative_rms = 0;    ///< seamless bilinear look-up in this level in random directions
   double lookup_max_over_mean = 0;
 };
