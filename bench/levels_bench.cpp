@@ -147,7 +147,7 @@ void check_default(bench::Report& report, const std::vector<bench::Curve>& curve
     all += fmt::format("  {}: {:.2f} %", levels, 100 * std::exp(error));
   report.note(fmt::format("size {}, all maps {}", size, all));
   report.check(fmt::format("  default {} levels over the best, {}", default_levels(size), best->first),
-               std::exp(log_errors[default_levels(size)] - best->second) - 1, 0.4);
+               std::exp(log_errors[default_levels(size)] - best->second) - 1, 0.15);
 }
 
 }  // namespace
