@@ -26,7 +26,7 @@ void print_text(const Environment& e, const MapStatistics& s) {
   const Vec3 d = s.brightest_direction;
   fmt::print("{}\n", e.source);
   fmt::print("  what                {}\n", e.description);
-  fmt::print("  range               {:.6g} to {:.6g}\n", s.min_radiance, s.max_radiance);
+  fmt::print("  range               {:.6g} to {:.6g}\n", static_cast<double>(e.smallest), static_cast<double>(e.largest));
   fmt::print("  average radiance    {}\n", rgb(s.mean_radiance));
   fmt::print("  energy (4 pi mean)  {}\n", rgb(s.energy));
   fmt::print("  irradiance up       {}\n", rgb(s.irradiance_up));
@@ -43,8 +43,8 @@ void print_json(const Environment& e, const MapStatistics& s) {
                               {"description", e.description},
                               {"width", e.radiance.width},
                               {"height", e.radiance.height},
-                              {"min_radiance", s.min_radiance},
-                              {"max_radiance", s.max_radiance},
+                              {"min_radiance", e.smallest},
+                              {"max_radiance", e.largest},
                               {"mean_radiance", s.mean_radiance},
                               {"energy", s.energy},
                               {"irradiance_up", s.irradiance_up},

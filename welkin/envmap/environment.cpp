@@ -69,7 +69,10 @@ Environment load_environment(std::string_view input, const EnvironmentOptions& o
   if (environment.faults.total() > 0)
     environment.warnings.push_back(fmt::format("repaired {} NaN, {} infinite and {} negative values", environment.faults.nan,
                                                environment.faults.infinite, environment.faults.negative));
-  if (*std::max_element(map.image.pixels.begin(), map.image.pixels.end()) <= 0) throw Error(input, "is black all over");
+  const auto [smallest, largest] = std::minmax_element(map.image.pixels.begin(), map.image.pixels.end());
+  environment.smallest = *smallest;
+  environment.largest = *largest;
+  if (environment.largest <= 0) throw Error(input, "is black all over");
   if (options.mirror) map = mirrored(map);
   if (std::fmod(options.rotate_degrees, 360.0) != 0) map = rotated_about_y(map, options.rotate_degrees);
   if (map.mapping != Mapping::equirectangular) map = resample(map, equirect_shape(map.shape()));

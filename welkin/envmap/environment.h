@@ -27,6 +27,7 @@ struct Environment {
   std::string source;        ///< the file or sky that it came from
   std::string description;   ///< "equirectangular 1024 x 512, Radiance HDR"
   PixelFaults faults;        ///< values that were repaired
+  float smallest = 0, largest = 0;  ///< of any channel of the input itself, repaired, before any resampling
   std::vector<std::string> warnings;
 };
 
