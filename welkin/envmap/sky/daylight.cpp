@@ -126,14 +126,27 @@ Rgb sun_irradiance(const DaylightOptions& options) {
       options, [](const Transmittance& t) { return t.rayleigh * t.aerosol * t.absorption; }));
 }
 
-// Bird & Hulstrom 1981, eq. 11 without its absorbing aerosol and its ground. 1 / mass stands for the sine of the
-// elevation, so that the sky fades to some 300 lx at sunset instead of to nothing; twilight goes on from there.
+// Bird & Riordan 1986, eq. 3-5 to 3-13. Of the sunlight that reaches the ground as if nothing scattered, molecules send
+// down 0.5 (1 - R^0.95) and the aerosol F R^1.5 (1 - A^w), with R and A their transmittances, w the aerosol's
+// single-scattering albedo and F its forward part; A^(1 - w) is absorbed. 1 / mass stands for the sine of the elevation
+// in the projection onto the ground, so that the sky fades to some 300 lx at sunset instead of to nothing; twilight goes
+// on from there.
 double sky_illuminance(const DaylightOptions& options) {
   const double mass = air_mass(90 - options.elevation);
-  const Rgb xyz = filtered_sunlight(options, [](const Transmittance& t) {
-    return t.absorption * (0.5 * (1 - t.rayleigh) + 0.84 * (1 - t.aerosol));
+  const double sine = std::max(0.0, std::sin(radians(options.elevation)));
+  const double log_asymmetry = std::log(1 - 0.65);
+  const double linear = log_asymmetry * (1.459 + log_asymmetry * (0.1595 + log_asymmetry * 0.4129));
+  const double quadratic = log_asymmetry * (0.0783 + log_asymmetry * (-0.3824 - log_asymmetry * 0.5874));
+  const double forward = 1 - 0.5 * std::exp((linear + quadratic * sine) * sine);
+  const Rgb xyz = filtered_sunlight(options, [=](const Transmittance& t) {
+    constexpr double albedo =
+        0.936;  // 0.945 exp(-0.095 ln^2(um / 0.4)) at 0.55 um, 0.93 to 0.945 over the visible
+    const double absorption = t.absorption * std::pow(t.aerosol, 1 - albedo);
+    const double molecules = 0.5 * (1 - std::pow(t.rayleigh, 0.95));
+    const double aerosol = forward * std::pow(t.rayleigh, 1.5) * (1 - std::pow(t.aerosol, albedo));
+    return absorption * (molecules + aerosol);
   });
-  return xyz[1] / mass / (1 - mass + std::pow(mass, 1.02)) * twilight_factor(options.elevation);
+  return xyz[1] / mass * twilight_factor(options.elevation);
 }
 
 Rgb sun_radiance(const DaylightOptions& options) { return (1 / sun_solid_angle()) * sun_irradiance(options); }
