@@ -64,6 +64,26 @@ TEST(Daylight, PublishedZenithIsKept) {
               12);  // Rec.709 rounding
 }
 
+// Perez's distribution of luminance at T = 3, the sun at 50 degrees from the zenith, by hand from the same appendix:
+// A = -0.9269, B = -0.6387, C = 5.2570, D = -2.2153, E = 0.1693. On the horizon, 90 degrees from the sun,
+// F = 1 + C e^(D pi / 2) = 1.1620; at the zenith F = (1 + A e^B) (1 + C e^(0.872665 D) + E cos^2 50) = 0.51062 * 1.8305.
+TEST(Daylight, HorizonOverZenithIsPreethams) {
+  const PreethamSky sky({40, 0, 3});
+  const double ratio = luminance(sky.radiance({0, 0, 1})) / luminance(sky.radiance({0, 1, 0}));
+  EXPECT_NEAR(ratio, 1.1620 / (0.51062 * 1.8305), 3e-3);  // Rec.709 rounds luminance by colour
+}
+
+// Zenith chromaticity for the same sky, from the polynomials of the appendix: (0.2444, 0.2505). The matrix back from Rec.709
+// to XYZ is the published inverse (four digits).
+TEST(Daylight, ZenithChromaticityIsPreethams) {
+  const Rgb c = PreethamSky({40, 0, 3}).radiance({0, 1, 0});
+  const double x = 0.4124 * c[0] + 0.3576 * c[1] + 0.1805 * c[2];
+  const double y = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+  const double z = 0.0193 * c[0] + 0.1192 * c[1] + 0.9505 * c[2];
+  EXPECT_NEAR(x / (x + y + z), 0.2444, 2e-4);
+  EXPECT_NEAR(y / (x + y + z), 0.2505, 2e-4);
+}
+
 TEST(Daylight, SkyIsSymmetricAboutTheSunsMeridian) {
   const PreethamSky sky({30, 40, 3});
   for (double away : {0.3, 1.0, 2.5}) {
