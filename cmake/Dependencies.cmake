@@ -2,6 +2,7 @@
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 find_package(OpenEXR REQUIRED)
+find_package(PNG REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)

@@ -48,6 +48,7 @@ const std::vector<Confined> confined = {
     {"OpenEXR", std::regex("(OpenEXR/|Imath/)?(Imf|Imath|Iex|IlmThread|half|openexr).*\\.h"),
      std::regex("welkin/image/codecs/exr[^/]*\\.cpp")},
     {"zstd", std::regex("(zstd|zdict).*\\.h"), std::regex("welkin/image/codecs/ktx2[^/]*\\.cpp")},
+    {"libpng", std::regex("(libpng[0-9]*/)?png.*\\.h"), std::regex("welkin/image/codecs/png[^/]*\\.cpp")},
     {"kissfft", std::regex("(kissfft/)?kiss_?fft.*"), std::regex("welkin/sh/[^/]*\\.cpp")},
 };
 
@@ -174,6 +175,7 @@ TEST(Architecture, RulesRefuseAndAllowWhatTheyShould) {
   EXPECT_TRUE(refused("welkin/image/codecs/hdr.cpp", "ImfInputFile.h"));
   EXPECT_TRUE(refused("welkin/image/codecs/exr.h", "OpenEXR/ImfHeader.h"));
   EXPECT_TRUE(refused("welkin/image/codecs/dds.cpp", "zstd.h"));
+  EXPECT_TRUE(refused("welkin/image/codecs/ldr.cpp", "png.h"));
   EXPECT_TRUE(refused("apps/welkin/main.cpp", "Imath/ImathVec.h"));
 
   EXPECT_FALSE(refused("welkin/envmap/a.cpp", "welkin/parallel/parallel_for.h"));  // through sphere and image

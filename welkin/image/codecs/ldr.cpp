@@ -1,7 +1,6 @@
 #include <welkin/image/codecs/ldr.h>
 
 #include <stb_image.h>
-#include <stb_image_write.h>
 
 #include <algorithm>
 #include <array>
@@ -117,25 +116,6 @@ LoadedImage decode_ldr(std::span<const std::uint8_t> bytes, std::string_view nam
   loaded.flat = decode_pixels(bytes, name, loaded.format);
   loaded.warnings.push_back(loaded.format + " is not HDR: light above white is lost");
   return loaded;
-}
-
-std::vector<std::uint8_t> encode_png(const ByteImage& image) {
-  assert(image.width > 0 && image.height > 0 && (image.channels == 1 || image.channels == 3));
-  if (image.pixels.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 2) {
-    throw Error("this image is too large for the PNG writer (1 GiB)");
-  }
-  std::vector<std::uint8_t> bytes;
-  const auto append = [](void* context, void* data, int count) {
-    const auto* begin = static_cast<const std::uint8_t*>(data);
-    auto& out = *static_cast<std::vector<std::uint8_t>*>(context);
-    out.insert(out.end(), begin, begin + count);
-  };
-  stbi_write_png_compression_level = 5;  // two thirds of the time of 8, the default, for 2 % more bytes
-  if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, image.channels, image.pixels.data(),
-                              0)) {
-    throw Error("the PNG writer ran out of memory");
-  }
-  return bytes;
 }
 
 }  // namespace welkin

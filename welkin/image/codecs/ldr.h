@@ -8,7 +8,8 @@
 #include <welkin/image/image.h>
 #include <welkin/image/loaded_image.h>
 
-// Pictures of low dynamic range: PNG and JPEG, through the stb library, which stays behind ldr.cpp.
+// Pictures of low dynamic range: PNG and JPEG, read through the stb library, which stays behind ldr.cpp; PNG
+// is written through libpng, behind png_write.cpp.
 
 namespace welkin {
 
