@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
-// Minutes of work on any machine: it never ends by itself in a test. Nearly all of it is the verification.
+// Minutes of work on any machine: it never ends by itself in a test. Filtering takes long enough to show how far it is.
 const std::vector<std::string> long_job{"ibl",      "sky:ramp,size=512x256", "-o",    "set", "--size", "64",
                                         "--verify", "--verify-directions",   "100000"};
 
