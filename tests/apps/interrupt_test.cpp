@@ -17,8 +17,9 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
-// Minutes of work on any machine: it never ends by itself in a test. Filtering takes long enough to show how far it is.
-const std::vector<std::string> long_job{"ibl",      "sky:ramp,size=512x256", "-o",    "set", "--size", "64",
+// Minutes of work on any machine: it never ends by itself in a test. Filtering alone takes seconds, and says often how
+// far it is; verification, which is most of the work, says so only level by level.
+const std::vector<std::string> long_job{"ibl",      "sky:day,size=1024x512", "-o",    "set", "--size", "1024",
                                         "--verify", "--verify-directions",   "100000"};
 
 // A pseudo-terminal: what the command prints comes out of `ours`.
