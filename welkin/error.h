@@ -12,7 +12,8 @@ class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
   Error(std::string_view path, std::string_view message)
-      : std::runtime_error(path.empty() ? std::string(message) : std::string(path) + ": " + std::string(message)),
+      : std::runtime_error(path.empty() ? std::string(message)
+                                        : std::string(path) + ": " + std::string(message)),
         path_(path) {}
 
   /// The file that the error is about; empty where there is none.

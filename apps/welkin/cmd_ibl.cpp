@@ -42,7 +42,9 @@ KernelKind parse_kernel(const std::string& name) {
 }
 
 DiffuseMethod parse_diffuse(const std::string& name) {
-  return name == "sh" ? DiffuseMethod::sh : name == "brute" ? DiffuseMethod::brute_force : DiffuseMethod::frequency;
+  return name == "sh"      ? DiffuseMethod::sh
+         : name == "brute" ? DiffuseMethod::brute_force
+                           : DiffuseMethod::frequency;
 }
 
 void print_levels(const IblSet& set, const std::optional<IblErrors>& errors) {
@@ -50,7 +52,8 @@ void print_levels(const IblSet& set, const std::optional<IblErrors>& errors) {
   fmt::print("{}\n", errors ? "   rel. RMS  max/mean    energy  edge step  look-up RMS" : "");
   for (std::size_t k = 0; k < set.levels.size(); ++k) {
     const IblLevel& level = set.levels[k];
-    fmt::print("{:>5} {:>5} {:>10.4f} {:>9.5f}", k, set.specular.levels[k].size, level.perceptual_roughness, level.alpha);
+    fmt::print("{:>5} {:>5} {:>10.4f} {:>9.5f}", k, set.specular.levels[k].size, level.perceptual_roughness,
+               level.alpha);
     if (errors && k > 0) {
       const LevelErrors& e = errors->levels[k];
       fmt::print("   {:.2e}  {:.2e} {:>9.1e} {:>10} {:>12.2e}", e.relative_rms, e.max_over_mean, e.energy,
@@ -63,19 +66,26 @@ void print_levels(const IblSet& set, const std::optional<IblErrors>& errors) {
 }
 
 void print_errors(const IblErrors& e) {
-  fmt::print("irradiance map       relative RMS {:.2e}, largest {:.2e} of the mean\n", e.irradiance.relative_rms, e.irradiance.max_over_mean);
-  fmt::print("nine coefficients    irradiance off by {:.2f} % on average, {:.2f} % at most, of the largest irradiance\n", 100 * e.sh_mean, 100 * e.sh_max);
-  fmt::print("trilinear look-up    relative RMS {:.2e} over random directions and roughnesses\n", e.trilinear_relative_rms);
+  fmt::print("irradiance map       relative RMS {:.2e}, largest {:.2e} of the mean\n",
+             e.irradiance.relative_rms, e.irradiance.max_over_mean);
+  fmt::print(
+      "nine coefficients    irradiance off by {:.2f} % on average, {:.2f} % at most, of the largest "
+      "irradiance\n",
+      100 * e.sh_mean, 100 * e.sh_max);
+  fmt::print("trilinear look-up    relative RMS {:.2e} over random directions and roughnesses\n",
+             e.trilinear_relative_rms);
   fmt::print("DFG table            largest error {:.1e} at texel centres\n", e.dfg_max);
-  fmt::print("measured against brute force in double precision, {} directions, {:.1f} s\n", e.directions, e.seconds);
+  fmt::print("measured against brute force in double precision, {} directions, {:.1f} s\n", e.directions,
+             e.seconds);
 }
 
 void print_files(const std::vector<IblFile>& files) {
   for (const IblFile& f : files) {
     if (f.stored_scale != 1)
-      fmt::print("note: {} is stored divided by {:g} to fit {}; multiply by it (the manifest{} so)\n", f.name, f.stored_scale, f.format,
-                 f.name.ends_with(".ktx2") ? " and the file say" : " says");
-    if (f.clipped > 0) fmt::print("note: {} values of {} were clipped to fit {}\n", f.clipped, f.name, f.format);
+      fmt::print("note: {} is stored divided by {:g} to fit {}; multiply by it (the manifest{} so)\n", f.name,
+                 f.stored_scale, f.format, f.name.ends_with(".ktx2") ? " and the file say" : " says");
+    if (f.clipped > 0)
+      fmt::print("note: {} values of {} were clipped to fit {}\n", f.clipped, f.name, f.format);
   }
 }
 
@@ -87,7 +97,8 @@ class NewFolder {
   explicit NewFolder(const std::filesystem::path& path) {
     std::error_code error;
     std::filesystem::path missing = std::filesystem::absolute(path).lexically_normal();
-    for (; !std::filesystem::exists(missing, error) && missing.has_relative_path(); missing = missing.parent_path())
+    for (; !std::filesystem::exists(missing, error) && missing.has_relative_path();
+         missing = missing.parent_path())
       made_.push_back(missing);
     error.clear();
     std::filesystem::create_directories(path, error);
@@ -109,11 +120,12 @@ class NewFolder {
 };
 
 // All files of the set, written only when everything is made.
-void write_set(const std::filesystem::path& directory, std::vector<IblFile>& files, const nlohmann::ordered_json& manifest,
-               const IblSet& set, const std::string& source) {
+void write_set(const std::filesystem::path& directory, std::vector<IblFile>& files,
+               const nlohmann::ordered_json& manifest, const IblSet& set, const std::string& source) {
   std::vector<OutputFile> out;
   for (IblFile& file : files) out.push_back({directory / file.name, std::move(file.bytes)});
-  out.push_back({directory / "sh.json", bytes_of(sh_json_text(sh_to_json(set.radiance_sh, ShQuantity::radiance, source)))});
+  out.push_back({directory / "sh.json",
+                 bytes_of(sh_json_text(sh_to_json(set.radiance_sh, ShQuantity::radiance, source)))});
   out.push_back({directory / "preview.png", encode_png(make_preview(set))});
   out.push_back({directory / "index.html", bytes_of(make_report_html(manifest))});
   out.push_back({directory / "manifest.json", bytes_of(manifest.dump(2) + "\n")});
@@ -125,10 +137,12 @@ void write_set(const std::filesystem::path& directory, std::vector<IblFile>& fil
 // What would fail only after all the work.
 void check(const IblCommand& command) {
   if (command.container == "exr" && command.format == "rgb9e5")
-    throw CLI::ValidationError("--format", "OpenEXR has no rgb9e5; choose rgba16f or rgba32f, or another --container");
+    throw CLI::ValidationError("--format",
+                               "OpenEXR has no rgb9e5; choose rgba16f or rgba32f, or another --container");
   const int most = std::bit_width(static_cast<unsigned>(command.options.size));
   if (command.options.levels > most)
-    throw CLI::ValidationError("--levels", fmt::format("a cube of {} has {} levels at most", command.options.size, most));
+    throw CLI::ValidationError("--levels",
+                               fmt::format("a cube of {} has {} levels at most", command.options.size, most));
   std::error_code error;
   if (std::filesystem::exists(command.output, error) && !std::filesystem::is_directory(command.output, error))
     throw Error(command.output, "is a file; the set needs a folder");
@@ -137,17 +151,21 @@ void check(const IblCommand& command) {
 void run(IblCommand command) {
   check(command);
   const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   IblOptions& options = command.options;
   options.kernel = parse_kernel(command.kernel);
   options.law = parse_level_law(command.law);
   options.diffuse = parse_diffuse(command.diffuse);
   if (command.multiple_scattering) options.dfg_form = DfgForm::scale_bias_with_multiple_scattering;
   const IblFileOptions file_options{parse_container(command.container), parse_pixel_format(command.format),
-                                    command.range == "clip" ? RangePolicy::clip : RangePolicy::scale, command.zstd_level, options.law};
+                                    command.range == "clip" ? RangePolicy::clip : RangePolicy::scale,
+                                    command.zstd_level, options.law};
   const Environment environment = load(command.in);
   const double load_seconds = seconds();
-  for (const std::string& warning : environment.warnings) fmt::print(stderr, "welkin: {}: warning: {}\n", environment.source, warning);
+  for (const std::string& warning : environment.warnings)
+    fmt::print(stderr, "welkin: {}: warning: {}\n", environment.source, warning);
 
   ProgressLine progress("filtering " + environment.source);
   options.filter.progress = [&](double share) { progress.show(command.verify ? 0.3 * share : share); };
@@ -159,8 +177,15 @@ void run(IblCommand command) {
     errors = verify_ibl(set, environment.radiance, options, verify);
   }
   std::vector<IblFile> files = encode_ibl_files(set, file_options);
-  const ManifestInput described{&environment, command.in.options.rotate_degrees, command.in.options.mirror, &set, &options, &files, &errors,
-                                load_seconds, seconds()};
+  const ManifestInput described{&environment,
+                                command.in.options.rotate_degrees,
+                                command.in.options.mirror,
+                                &set,
+                                &options,
+                                &files,
+                                &errors,
+                                load_seconds,
+                                seconds()};
   const nlohmann::ordered_json manifest = make_manifest(described);
   write_set(command.output, files, manifest, set, environment.source);
   if (command.json) {
@@ -170,7 +195,8 @@ void run(IblCommand command) {
   print_levels(set, errors);
   if (errors) print_errors(*errors);
   print_files(files);
-  fmt::print("wrote {} in {:.2f} s: open {}\n", command.output, seconds(), (std::filesystem::path(command.output) / "index.html").string());
+  fmt::print("wrote {} in {:.2f} s: open {}\n", command.output, seconds(),
+             (std::filesystem::path(command.output) / "index.html").string());
 }
 
 }  // namespace
@@ -181,30 +207,58 @@ void add_ibl_command(CLI::App& app) {
   add_environment_options(*sub, command->in);
   IblOptions& o = command->options;
   sub->add_option("-o,--output", command->output, "Folder for the set; made if it is missing")->required();
-  sub->add_option("--size", o.size, "Texels along an edge of the largest level")->check(CLI::Range(1, 8192))->capture_default_str();
+  sub->add_option("--size", o.size, "Texels along an edge of the largest level")
+      ->check(CLI::Range(1, 8192))
+      ->capture_default_str();
   sub->add_option("--levels", o.levels, "Levels of the specular map; 0 chooses those down to 4 texels")
       ->check(CLI::Range(0, 14));
-  sub->add_option("--kernel", command->kernel, "ggx, phong or gaussian")->check(CLI::IsMember({"ggx", "phong", "gaussian"}))->capture_default_str();
-  sub->add_option("--level-law", command->law, "Which level a roughness is in: linear, quadratic (Filament, three.js), log2 (Babylon.js)")
-      ->check(CLI::IsMember({"linear", "quadratic", "log2"}))->capture_default_str();
-  sub->add_option("--irradiance-size", o.irradiance_size, "Texels along an edge of the irradiance map")->check(CLI::Range(1, 1024))->capture_default_str();
-  sub->add_option("--diffuse", command->diffuse, "How the irradiance map is made: frequency (exact), sh (nine coefficients), brute (slow)")
-      ->check(CLI::IsMember({"frequency", "sh", "brute"}))->capture_default_str();
-  sub->add_option("--sh-degree", o.sh_degree, "Degree of the coefficients in sh.json")->check(CLI::Range(0, max_projection_degree))->capture_default_str();
-  sub->add_option("--dfg-size", o.dfg_size, "Texels along an edge of the DFG table")->check(CLI::Range(1, 4096))->capture_default_str();
+  sub->add_option("--kernel", command->kernel, "ggx, phong or gaussian")
+      ->check(CLI::IsMember({"ggx", "phong", "gaussian"}))
+      ->capture_default_str();
+  sub->add_option("--level-law", command->law,
+                  "Which level a roughness is in: linear, quadratic (Filament, three.js), log2 (Babylon.js)")
+      ->check(CLI::IsMember({"linear", "quadratic", "log2"}))
+      ->capture_default_str();
+  sub->add_option("--irradiance-size", o.irradiance_size, "Texels along an edge of the irradiance map")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  sub->add_option("--diffuse", command->diffuse,
+                  "How the irradiance map is made: frequency (exact), sh (nine coefficients), brute (slow)")
+      ->check(CLI::IsMember({"frequency", "sh", "brute"}))
+      ->capture_default_str();
+  sub->add_option("--sh-degree", o.sh_degree, "Degree of the coefficients in sh.json")
+      ->check(CLI::Range(0, max_projection_degree))
+      ->capture_default_str();
+  sub->add_option("--dfg-size", o.dfg_size, "Texels along an edge of the DFG table")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
   sub->add_flag("--dfg-multiple-scattering", command->multiple_scattering,
-                "Put the light that scatters between facets into the DFG table; without it, shaders add it (see docs/ibl.md)");
-  sub->add_option("--format", command->format, "Of the cubes")->check(CLI::IsMember({"rgba16f", "rgba32f", "rgb9e5"}))->capture_default_str();
-  sub->add_option("--container", command->container, "ktx2, dds or exr")->check(CLI::IsMember({"ktx2", "dds", "exr"}))->capture_default_str();
-  sub->add_option("--range", command->range, "Values too large for the format: scale (store all divided by a power of two) or clip")
-      ->check(CLI::IsMember({"scale", "clip"}))->capture_default_str();
-  sub->add_option("--zstd", command->zstd_level, "Compress KTX2 levels with Zstandard, 1 (fast) to 22 (small); 0 does not")
-      ->check(CLI::Range(0, 22))->capture_default_str();
-  sub->add_flag("--verify", command->verify, "Measure every output against brute force, print and store the errors");
-  sub->add_option("--verify-directions", command->verify_options.directions, "Random directions per level for --verify")
-      ->check(CLI::Range(4, 100000))->capture_default_str();
+                "Put the light that scatters between facets into the DFG table; without it, shaders add it "
+                "(see docs/ibl.md)");
+  sub->add_option("--format", command->format, "Of the cubes")
+      ->check(CLI::IsMember({"rgba16f", "rgba32f", "rgb9e5"}))
+      ->capture_default_str();
+  sub->add_option("--container", command->container, "ktx2, dds or exr")
+      ->check(CLI::IsMember({"ktx2", "dds", "exr"}))
+      ->capture_default_str();
+  sub->add_option("--range", command->range,
+                  "Values too large for the format: scale (store all divided by a power of two) or clip")
+      ->check(CLI::IsMember({"scale", "clip"}))
+      ->capture_default_str();
+  sub->add_option("--zstd", command->zstd_level,
+                  "Compress KTX2 levels with Zstandard, 1 (fast) to 22 (small); 0 does not")
+      ->check(CLI::Range(0, 22))
+      ->capture_default_str();
+  sub->add_flag("--verify", command->verify,
+                "Measure every output against brute force, print and store the errors");
+  sub->add_option("--verify-directions", command->verify_options.directions,
+                  "Random directions per level for --verify")
+      ->check(CLI::Range(4, 100000))
+      ->capture_default_str();
   sub->add_flag("--json", command->json, "Print the manifest in place of the table");
-  sub->footer("Examples:\n  welkin ibl park.hdr -o park --verify\n  welkin ibl sky:day,elevation=20 -o day --size 512 --container dds");
+  sub->footer(
+      "Examples:\n  welkin ibl park.hdr -o park --verify\n  welkin ibl sky:day,elevation=20 -o day --size "
+      "512 --container dds");
   sub->callback([command] { run(*command); });
 }
 

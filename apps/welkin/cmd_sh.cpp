@@ -32,11 +32,14 @@ void print_table(const ShCoefficients& coefficients) {
 
 void run(const ShCommand& command) {
   const Environment environment = load(command.in);
-  for (const std::string& warning : environment.warnings) fmt::print(stderr, "welkin: {}: warning: {}\n", environment.source, warning);
+  for (const std::string& warning : environment.warnings)
+    fmt::print(stderr, "welkin: {}: warning: {}\n", environment.source, warning);
   const ShQuantity quantity = parse_sh_quantity(command.quantity);
-  const ShCoefficients coefficients = sh_of_quantity(project_equirect(environment.radiance, command.degree), quantity);
+  const ShCoefficients coefficients =
+      sh_of_quantity(project_equirect(environment.radiance, command.degree), quantity);
   if (command.json_path.empty()) {
-    fmt::print("{} of {}, real orthonormal basis without Condon-Shortley sign, polar axis z\n", command.quantity, environment.source);
+    fmt::print("{} of {}, real orthonormal basis without Condon-Shortley sign, polar axis z\n",
+               command.quantity, environment.source);
     print_table(coefficients);
     return;
   }

@@ -17,7 +17,8 @@ struct EnvironmentInput {
 };
 
 inline void add_environment_options(CLI::App& sub, EnvironmentInput& in) {
-  sub.add_option("INPUT", in.input, "An HDR file (.hdr .exr .ktx2 .dds .png .jpg) or sky:... (see welkin sky --help)")
+  sub.add_option("INPUT", in.input,
+                 "An HDR file (.hdr .exr .ktx2 .dds .png .jpg) or sky:... (see welkin sky --help)")
       ->required();
   sub.add_option("--mapping", in.mapping,
                  "What a flat image shows: equirectangular, cube, dual-paraboloid, mirror-ball, octahedral");

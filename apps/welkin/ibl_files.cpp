@@ -18,7 +18,8 @@ struct Content {
   std::string name, quantity, unit;
 };
 
-IblFile describe_file(const Content& content, const std::string& suffix, const IblFileOptions& options, PixelFormat format) {
+IblFile describe_file(const Content& content, const std::string& suffix, const IblFileOptions& options,
+                      PixelFormat format) {
   IblFile file;
   file.name = content.name + suffix + "." + container_name(options.container);
   file.quantity = content.quantity;
@@ -34,14 +35,16 @@ void take(IblFile& file, EncodedTexture&& texture) {
 }
 
 // OpenEXR files have no cube type: each level is a strip of six faces.
-void add_exr_levels(const Content& content, const CubeMips& cube, const IblFileOptions& options, std::vector<IblFile>& files) {
+void add_exr_levels(const Content& content, const CubeMips& cube, const IblFileOptions& options,
+                    std::vector<IblFile>& files) {
   const RangeFit fit = choose_scale(cube, options.format, options.range);
   for (std::size_t k = 0; k < cube.levels.size(); ++k) {
     const std::string suffix = cube.levels.size() > 1 ? fmt::format("_{}", k) : "";
     IblFile file = describe_file(content, suffix, options, options.format);
     const Image strip = cube_to_layout(cube.levels[k], CubeLayout::horizontal_strip);
     const bool half = options.format != PixelFormat::rgba32f;
-    file.bytes = encode_exr(strip, {half ? ExrPixelType::half_float : ExrPixelType::single_float, fit.stored_scale});
+    file.bytes =
+        encode_exr(strip, {half ? ExrPixelType::half_float : ExrPixelType::single_float, fit.stored_scale});
     file.size = cube.levels[k].size;
     file.stored_scale = fit.stored_scale;
     file.clipped = k == 0 ? fit.clipped : 0;
@@ -49,11 +52,13 @@ void add_exr_levels(const Content& content, const CubeMips& cube, const IblFileO
   }
 }
 
-void add_cube(const Content& content, const CubeMips& cube, const IblFileOptions& options, std::vector<IblFile>& files) {
+void add_cube(const Content& content, const CubeMips& cube, const IblFileOptions& options,
+              std::vector<IblFile>& files) {
   if (options.container == Container::exr) return add_exr_levels(content, cube, options, files);
   IblFile file = describe_file(content, "", options, options.format);
   if (options.container == Container::ktx2) {
-    Ktx2Options ktx{options.format, options.range, 0, options.zstd_level, {{"WelkinQuantity", content.quantity}}};
+    Ktx2Options ktx{
+        options.format, options.range, 0, options.zstd_level, {{"WelkinQuantity", content.quantity}}};
     if (content.name == "specular") ktx.keys["WelkinLevelLaw"] = std::string(formula(options.law));
     take(file, encode_ktx2(cube, ktx));
   } else {
@@ -74,13 +79,18 @@ Image dfg_image(const DfgTable& table, int channels) {
 void add_dfg(const DfgTable& table, const IblFileOptions& options, std::vector<IblFile>& files) {
   const bool wide = options.format == PixelFormat::rgba32f;
   const PixelFormat format = wide ? PixelFormat::rg32f : PixelFormat::rg16f;
-  const Content content{"dfg", "split-sum scale (R) and bias (G): reflectance = F0 * R + G; x = n.v, y = perceptual_roughness", "1"};
+  const Content content{
+      "dfg", "split-sum scale (R) and bias (G): reflectance = F0 * R + G; x = n.v, y = perceptual_roughness",
+      "1"};
   IblFile file = describe_file(content, "", options, format);
   switch (options.container) {
-    case Container::ktx2: take(file, encode_ktx2(dfg_image(table, 2), {format, RangePolicy::clip, 0, options.zstd_level, {}})); break;
+    case Container::ktx2:
+      take(file, encode_ktx2(dfg_image(table, 2), {format, RangePolicy::clip, 0, options.zstd_level, {}}));
+      break;
     case Container::dds: take(file, encode_dds(dfg_image(table, 2), {format, RangePolicy::clip, 0})); break;
     case Container::exr:
-      file.bytes = encode_exr(dfg_image(table, 3), {wide ? ExrPixelType::single_float : ExrPixelType::half_float, 1});
+      file.bytes =
+          encode_exr(dfg_image(table, 3), {wide ? ExrPixelType::single_float : ExrPixelType::half_float, 1});
       break;
   }
   file.size = table.size;
@@ -114,8 +124,10 @@ std::vector<IblFile> encode_ibl_files(const IblSet& set, const IblFileOptions& o
     throw Error("OpenEXR has no rgb9e5; choose rgba16f or rgba32f, or another container");
   std::vector<IblFile> files;
   add_cube({"environment", "radiance", radiance_unit}, set.environment, options, files);
-  add_cube({"specular", "prefiltered radiance, kernel normalised to 1", radiance_unit}, set.specular, options, files);
-  add_cube({"irradiance", "irradiance E (divide by pi for the radiance of a white diffuse surface)", irradiance_unit},
+  add_cube({"specular", "prefiltered radiance, kernel normalised to 1", radiance_unit}, set.specular, options,
+           files);
+  add_cube({"irradiance", "irradiance E (divide by pi for the radiance of a white diffuse surface)",
+            irradiance_unit},
            CubeMips{{set.irradiance}}, options, files);
   add_dfg(set.dfg, options, files);
   return files;

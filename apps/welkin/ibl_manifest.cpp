@@ -22,18 +22,25 @@ Json input_json(const Environment& environment) {
           {"brightest_share", s.brightest_share},
           {"irradiance_up", s.irradiance_up},
           {"irradiance_down", s.irradiance_down},
-          {"faults", {{"nan", environment.faults.nan}, {"infinite", environment.faults.infinite}, {"negative", environment.faults.negative}}},
+          {"faults",
+           {{"nan", environment.faults.nan},
+            {"infinite", environment.faults.infinite},
+            {"negative", environment.faults.negative}}},
           {"warnings", environment.warnings}};
 }
 
 Json conventions_json() {
-  return {{"frame", "right-handed, +Y up, -Z forward (glTF); the middle column of an equirectangular map looks along +X"},
-          {"faces", "+X -X +Y -Y +Z -Z, OpenGL and KTX orientation"},
-          {"color", "linear, Rec. 709 primaries"},
-          {"texel", "specular and irradiance: the value in the direction of the texel's centre; environment: the mean over the texel"},
-          {"roughness", "alpha is the GGX width, alpha = perceptual_roughness^2"},
-          {"stored_scale", "true value = value in the file * stored_scale"},
-          {"spherical_harmonics", "see sh.json, which names its own"}};
+  return {
+      {"frame",
+       "right-handed, +Y up, -Z forward (glTF); the middle column of an equirectangular map looks along +X"},
+      {"faces", "+X -X +Y -Y +Z -Z, OpenGL and KTX orientation"},
+      {"color", "linear, Rec. 709 primaries"},
+      {"texel",
+       "specular and irradiance: the value in the direction of the texel's centre; environment: the mean "
+       "over the texel"},
+      {"roughness", "alpha is the GGX width, alpha = perceptual_roughness^2"},
+      {"stored_scale", "true value = value in the file * stored_scale"},
+      {"spherical_harmonics", "see sh.json, which names its own"}};
 }
 
 Json errors_json(const LevelErrors& e) {
@@ -78,8 +85,11 @@ Json files_json(const std::vector<IblFile>& files) {
                     {"stored_scale", f.stored_scale},
                     {"clipped", f.clipped},
                     {"bytes", f.bytes.size()}});
-  list.push_back({{"name", "sh.json"}, {"quantity", "spherical-harmonic coefficients of the radiance"}, {"format", "json"}});
-  list.push_back({{"name", "preview.png"}, {"quantity", "contact sheet shaded with these files"}, {"format", "png"}});
+  list.push_back({{"name", "sh.json"},
+                  {"quantity", "spherical-harmonic coefficients of the radiance"},
+                  {"format", "json"}});
+  list.push_back(
+      {{"name", "preview.png"}, {"quantity", "contact sheet shaded with these files"}, {"format", "png"}});
   list.push_back({{"name", "index.html"}, {"quantity", "this manifest as a page"}, {"format", "html"}});
   return list;
 }
@@ -109,12 +119,16 @@ Json make_manifest(const ManifestInput& in) {
   json["orientation"] = {{"rotate_degrees", in.rotate_degrees}, {"mirror", in.mirror}};
   json["input"] = input_json(*in.environment);
   json["conventions"] = conventions_json();
-  json["level_law"] = {{"name", name(in.options->law)}, {"formula", formula(in.options->law)}, {"levels", set.levels.size()}, {"size", set.specular.size()}};
+  json["level_law"] = {{"name", name(in.options->law)},
+                       {"formula", formula(in.options->law)},
+                       {"levels", set.levels.size()},
+                       {"size", set.specular.size()}};
   json["files"] = files_json(*in.files);
   json["levels"] = levels_json(set, errors);
   json["irradiance"] = {{"size", set.irradiance.size}, {"method", method_name(in.options->diffuse)}};
   json["sh"] = {{"degree", set.radiance_sh.max_degree}};
-  json["dfg"] = {{"size", set.dfg.size}, {"multiple_scattering_included", in.options->dfg_form != DfgForm::scale_bias}};
+  json["dfg"] = {{"size", set.dfg.size},
+                 {"multiple_scattering_included", in.options->dfg_form != DfgForm::scale_bias}};
   if (errors) {
     json["irradiance"]["errors"] = errors_json(errors->irradiance);
     json["sh"]["irradiance_mean_error"] = errors->sh_mean;
@@ -126,12 +140,9 @@ Json make_manifest(const ManifestInput& in) {
   }
   double specular = set.filter.analysis_seconds;
   for (const IblLevel& level : set.levels) specular += level.report.seconds;
-  json["timings"] = {{"load", in.load_seconds},
-                     {"environment", set.seconds_environment},
-                     {"specular", specular},
-                     {"irradiance", set.seconds_irradiance},
-                     {"sh", set.seconds_sh},
-                     {"dfg", set.seconds_dfg},
+  json["timings"] = {{"load", in.load_seconds},  {"environment", set.seconds_environment},
+                     {"specular", specular},     {"irradiance", set.seconds_irradiance},
+                     {"sh", set.seconds_sh},     {"dfg", set.seconds_dfg},
                      {"total", in.total_seconds}};
   if (errors) json["timings"]["verify"] = errors->seconds;
   return json;

@@ -34,7 +34,8 @@ int fail(const char* what) {
 int main(int argc, char** argv) {
   std::signal(SIGINT, stop);
   std::signal(SIGTERM, stop);
-  CLI::App app{"welkin: environment lighting, filtered exactly and measured.\nTry: welkin ibl sky: -o out", "welkin"};
+  CLI::App app{"welkin: environment lighting, filtered exactly and measured.\nTry: welkin ibl sky: -o out",
+               "welkin"};
   app.set_version_flag("--version", "welkin 0.1.0");
   app.require_subcommand(1);
   app.fallthrough();
@@ -59,6 +60,7 @@ int main(int argc, char** argv) {
     return fail(error.what());
   }
   // What is still in the buffer may not fit on a full disk, and exit() would not say so.
-  if (std::fflush(stdout) != 0) return fail(("standard output: cannot write: " + std::string(std::strerror(errno))).c_str());
+  if (std::fflush(stdout) != 0)
+    return fail(("standard output: cannot write: " + std::string(std::strerror(errno))).c_str());
   return 0;
 }

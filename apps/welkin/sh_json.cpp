@@ -31,7 +31,8 @@ ShCoefficients sh_of_quantity(const ShCoefficients& radiance, ShQuantity quantit
   return convolve(radiance, factors);
 }
 
-nlohmann::ordered_json sh_to_json(const ShCoefficients& coefficients, ShQuantity quantity, const std::string& source) {
+nlohmann::ordered_json sh_to_json(const ShCoefficients& coefficients, ShQuantity quantity,
+                                  const std::string& source) {
   nlohmann::ordered_json json;
   json["generator"] = "welkin 0.1.0";
   json["source"] = source;
@@ -43,12 +44,14 @@ nlohmann::ordered_json sh_to_json(const ShCoefficients& coefficients, ShQuantity
       {"index", "l (l + 1) + m"},
       {"first_functions", "Y_00 = 0.282095, Y_1-1 = 0.488603 y, Y_10 = 0.488603 z, Y_11 = 0.488603 x"},
       {"polar_axis", "z"},
-      {"frame", "right-handed, +Y up, -Z forward; the middle column of an equirectangular map looks along +X"},
+      {"frame",
+       "right-handed, +Y up, -Z forward; the middle column of an equirectangular map looks along +X"},
       {"cosine_applied", quantity != ShQuantity::radiance},
       {"one_over_pi_applied", quantity == ShQuantity::irradiance_over_pi},
       {"basis_constants_applied", false},
       {"window", "none"},
-      {"evaluate", sh_quantity_name(quantity) + "(n) = sum over l, m of coefficient[l (l + 1) + m] * Y_lm(n)"}};
+      {"evaluate",
+       sh_quantity_name(quantity) + "(n) = sum over l, m of coefficient[l (l + 1) + m] * Y_lm(n)"}};
   json["color"] = "linear Rec. 709, [red, green, blue]";
   auto& rows = json["coefficients"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < coefficients.values.size(); i += coefficients.channels)
@@ -64,8 +67,8 @@ std::string sh_json_text(const nlohmann::ordered_json& json) {
   text += ",\n  \"coefficients\": [\n";
   const auto& rows = json["coefficients"];
   for (std::size_t i = 0; i < rows.size(); ++i)
-    text += fmt::format("    [{:.9g}, {:.9g}, {:.9g}]{}\n", rows[i][0].get<double>(), rows[i][1].get<double>(),
-                        rows[i][2].get<double>(), i + 1 < rows.size() ? "," : "");
+    text += fmt::format("    [{:.9g}, {:.9g}, {:.9g}]{}\n", rows[i][0].get<double>(),
+                        rows[i][1].get<double>(), rows[i][2].get<double>(), i + 1 < rows.size() ? "," : "");
   return text + "  ]\n}\n";
 }
 

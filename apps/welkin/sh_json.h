@@ -16,7 +16,8 @@ std::string sh_quantity_name(ShQuantity quantity);
 ShCoefficients sh_of_quantity(const ShCoefficients& radiance, ShQuantity quantity);
 
 /// The file format of `welkin sh --json` and of the set's sh.json: the coefficients with every convention named.
-nlohmann::ordered_json sh_to_json(const ShCoefficients& coefficients, ShQuantity quantity, const std::string& source);
+nlohmann::ordered_json sh_to_json(const ShCoefficients& coefficients, ShQuantity quantity,
+                                  const std::string& source);
 
 /// JSON text with one line per coefficient, so that files can be compared line by line.
 std::string sh_json_text(const nlohmann::ordered_json& json);

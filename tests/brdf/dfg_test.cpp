@@ -140,7 +140,8 @@ TEST(MultipleScattering, TableWithItIsExactForGlassAndForWhiteMetal) {
     const auto line = [&](double f0) { return f0 * baked.scale_bias[i] + baked.scale_bias[i + 1]; };
     EXPECT_NEAR(line(0.04), compensated(0.04), 1e-6);  // float
     EXPECT_NEAR(line(1), 1, 1e-6);
-    for (double f0 = 0.04; f0 < 1; f0 += 0.04) worst_between = std::max(worst_between, line(f0) - compensated(f0));
+    for (double f0 = 0.04; f0 < 1; f0 += 0.04)
+      worst_between = std::max(worst_between, line(f0) - compensated(f0));
   }
   EXPECT_GT(worst_between, 0.05);
   EXPECT_LT(worst_between, 0.18);  // what the header promises

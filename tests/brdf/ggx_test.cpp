@@ -35,7 +35,8 @@ double integrate_half_angle(double alpha, F&& f) {
 
 TEST(Ggx, DistributionWithTheCosineIntegratesToOne) {
   for (double alpha : {1e-4, 0.01, 0.1, 0.5, 1.0}) {
-    const double total = integrate_half_angle(alpha, [&](double c) { return 2 * pi * ggx_distribution(c, alpha) * c; });
+    const double total =
+        integrate_half_angle(alpha, [&](double c) { return 2 * pi * ggx_distribution(c, alpha) * c; });
     // 200 Gauss nodes on a smooth integrand; cos t_h rounds 1 - c^2 to 2e-16 of 1, alpha^2 = 1e-8 at the smallest.
     EXPECT_NEAR(total, 1, 1e-7) << alpha;
   }
@@ -69,7 +70,8 @@ TEST(Ggx, VisibleNormalDensityIntegratesToOne) {
       const double total = integrate_half_angle(alpha, [&](double c) {
         double ring = 0;
         for (std::size_t i = 0; i < azimuths.nodes.size(); ++i)
-          ring += azimuths.weights[i] * pi * ggx_visible_normal_pdf(view, direction(c, pi * azimuths.nodes[i]), alpha);
+          ring += azimuths.weights[i] * pi *
+                  ggx_visible_normal_pdf(view, direction(c, pi * azimuths.nodes[i]), alpha);
         return ring;
       });
       // max(0, v.h) has a kink across the nodes: 400 nodes leave about 1e-5 of it.
@@ -114,7 +116,8 @@ TEST(Ggx, ReflectionIsReciprocal) {
   for (double alpha : {0.01, 0.3, 1.0}) {
     EXPECT_DOUBLE_EQ(ggx_visibility(0.2, 0.9, alpha), ggx_visibility(0.9, 0.2, alpha));
     EXPECT_DOUBLE_EQ(ggx_masking_shadowing(0.2, 0.9, alpha), ggx_masking_shadowing(0.9, 0.2, alpha));
-    EXPECT_NEAR(ggx_visibility(0.2, 0.9, alpha), ggx_masking_shadowing(0.2, 0.9, alpha) / (4 * 0.2 * 0.9), 1e-12);
+    EXPECT_NEAR(ggx_visibility(0.2, 0.9, alpha), ggx_masking_shadowing(0.2, 0.9, alpha) / (4 * 0.2 * 0.9),
+                1e-12);
     EXPECT_GE(ggx_masking_shadowing(0.2, 0.9, alpha), ggx_masking(0.2, alpha) * ggx_masking(0.9, alpha));
     EXPECT_LE(ggx_masking_shadowing(0.2, 0.9, alpha), ggx_masking(0.2, alpha));
   }
@@ -132,7 +135,8 @@ TEST(Fresnel, HasItsKnownValues) {
   // ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2) at normal incidence; gold near 650 nm.
   EXPECT_NEAR(fresnel_conductor(1, 0.16, 3.4), (0.84 * 0.84 + 3.4 * 3.4) / (1.16 * 1.16 + 3.4 * 3.4), 1e-14);
   EXPECT_NEAR(fresnel_conductor(0, 0.16, 3.4), 1, 1e-14);
-  for (double c : {0.1, 0.5, 0.9}) EXPECT_NEAR(fresnel_conductor(c, 1.5, 0), fresnel_dielectric(c, 1.5), 1e-14);
+  for (double c : {0.1, 0.5, 0.9})
+    EXPECT_NEAR(fresnel_conductor(c, 1.5, 0), fresnel_dielectric(c, 1.5), 1e-14);
   EXPECT_DOUBLE_EQ(fresnel_schlick(1, 0.04), 0.04);
   EXPECT_DOUBLE_EQ(fresnel_schlick(0, 0.04), 1);
   EXPECT_DOUBLE_EQ(fresnel_schlick(0.5, 0, 1), 1.0 / 32);

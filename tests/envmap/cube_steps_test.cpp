@@ -20,7 +20,8 @@ Cube cube_of(int size, double step_on_face_2) {
     for (int y = 0; y < size; ++y)
       for (int x = 0; x < size; ++x)
         for (int c = 0; c < 3; ++c)
-          cube.at(face, x, y)[c] = static_cast<float>(smooth(cube_texel_direction(size, face, x, y)) + (face == 2 ? step_on_face_2 : 0));
+          cube.at(face, x, y)[c] = static_cast<float>(smooth(cube_texel_direction(size, face, x, y)) +
+                                                      (face == 2 ? step_on_face_2 : 0));
   return cube;
 }
 

@@ -23,7 +23,8 @@ class EnvironmentFiles : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() /
-              ("welkin_environment_" + std::to_string(::getpid()) + "_" + testing::UnitTest::GetInstance()->current_test_info()->name());
+              ("welkin_environment_" + std::to_string(::getpid()) + "_" +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
@@ -52,14 +53,16 @@ TEST_F(EnvironmentFiles, SkiesNeedNoFile) {
 
 TEST_F(EnvironmentFiles, ACubeCrossBecomesTheSamePanorama) {
   const SphereMap cube = labelled_map(map_shape(Mapping::cube, 64));
-  const std::string path = save("cross.exr", cube_to_layout(cube_from_sphere_map(cube), CubeLayout::horizontal_cross));
+  const std::string path =
+      save("cross.exr", cube_to_layout(cube_from_sphere_map(cube), CubeLayout::horizontal_cross));
   const Environment e = load_environment(path);
   EXPECT_EQ(e.radiance.width, 2 * e.radiance.height);
   // The middle of every face's label background is far from any letter's edge only by luck, so compare with the map
   // drawn directly, on average: letters' borders are a few per cent of the texels.
   const Image direct = labelled_map({Mapping::equirectangular, e.radiance.width, e.radiance.height}).image;
   double wrong = 0;
-  for (std::size_t i = 0; i < direct.pixels.size(); ++i) wrong += std::abs(direct.pixels[i] - e.radiance.pixels[i]) > 0.2f;
+  for (std::size_t i = 0; i < direct.pixels.size(); ++i)
+    wrong += std::abs(direct.pixels[i] - e.radiance.pixels[i]) > 0.2f;
   EXPECT_LT(wrong / static_cast<double>(direct.pixels.size()), 0.06);
 }
 

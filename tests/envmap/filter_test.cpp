@@ -35,12 +35,14 @@ Errors compare(const Image& map, const FilterTarget& target, const Cube& cube) {
   const int n = target.size, face = static_cast<int>(brightest) / (n * n);
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
-      take(face, std::clamp(static_cast<int>(brightest) % n + dx, 0, n - 1), std::clamp(static_cast<int>(brightest) / n % n + dy, 0, n - 1));
+      take(face, std::clamp(static_cast<int>(brightest) % n + dx, 0, n - 1),
+           std::clamp(static_cast<int>(brightest) / n % n + dy, 0, n - 1));
   const auto truth = filter_brute_force(map, directions, std::span(&target.kernel, 1));
   double squared = 0, reference = 0, largest = 0;
   for (std::size_t i = 0; i < directions.size(); ++i)
     for (int c = 0; c < 3; ++c) {
-      const double expected = target.scale * truth[3 * i + c], error = static_cast<double>(values[i][c]) - expected;
+      const double expected = target.scale * truth[3 * i + c],
+                   error = static_cast<double>(values[i][c]) - expected;
       squared += error * error;
       reference += expected * expected;
       largest = std::max(largest, std::abs(error));
@@ -50,9 +52,13 @@ Errors compare(const Image& map, const FilterTarget& target, const Cube& cube) {
 }
 
 const std::vector<FilterTarget>& targets() {
-  static const std::vector<FilterTarget> all{
-      {make_ggx_kernel(1.0 / 64), 64}, {make_ggx_kernel(0.0625), 32}, {make_ggx_kernel(0.25), 16},     {make_ggx_kernel(1), 4},
-      {make_phong_kernel(200), 16},    {make_gaussian_kernel(0.1), 16}, {make_lambert_kernel(), 16, std::numbers::pi}};
+  static const std::vector<FilterTarget> all{{make_ggx_kernel(1.0 / 64), 64},
+                                             {make_ggx_kernel(0.0625), 32},
+                                             {make_ggx_kernel(0.25), 16},
+                                             {make_ggx_kernel(1), 4},
+                                             {make_phong_kernel(200), 16},
+                                             {make_gaussian_kernel(0.1), 16},
+                                             {make_lambert_kernel(), 16, std::numbers::pi}};
   return all;
 }
 
@@ -87,7 +93,8 @@ TEST(Filter, TakesAnySizeOfMap) {
 TEST(Filter, LeavesAConstantAsItIs) {
   const std::vector<Cube> cubes = filter_environment(constant_map(128, 64, 5), targets());
   for (std::size_t i = 0; i < cubes.size(); ++i)
-    for (float value : cubes[i].texels) ASSERT_NEAR(value, 5 * targets()[i].scale, 5e-6 * targets()[i].scale) << describe(targets()[i].kernel);
+    for (float value : cubes[i].texels)
+      ASSERT_NEAR(value, 5 * targets()[i].scale, 5e-6 * targets()[i].scale) << describe(targets()[i].kernel);
 }
 
 // Kernels so narrow that their cores are summed directly agree with brute force too, and with the whole transform.
@@ -145,7 +152,8 @@ TEST(BrightTexels, SplitKeepsTheMap) {
   Image sum = split.residual;
   for (const BrightTexel& t : split.texels)
     for (int c = 0; c < 3; ++c) sum.at(t.x, t.y)[c] += static_cast<float>(t.radiance[c]);
-  for (std::size_t i = 0; i < sum.pixels.size(); ++i) EXPECT_NEAR(sum.pixels[i], map.pixels[i], 1e-7 * map.pixels[i]);
+  for (std::size_t i = 0; i < sum.pixels.size(); ++i)
+    EXPECT_NEAR(sum.pixels[i], map.pixels[i], 1e-7 * map.pixels[i]);
   EXPECT_NEAR(split.texels[0].radiance[1] / split.texels[0].radiance[0], 0.9, 1e-6);
 }
 

@@ -39,7 +39,8 @@ TEST(Ibl, VerificationPassesOnASunMap) {
   for (std::size_t k = 1; k < errors.levels.size(); ++k) {
     EXPECT_LT(errors.levels[k].relative_rms, 1e-4) << k;
     EXPECT_LT(errors.levels[k].max_over_mean, 1e-3) << k;
-    EXPECT_LT(errors.levels[k].edge_step, 1.2) << k;  // the sun's lobe is two texels wide: coarse to predict from
+    EXPECT_LT(errors.levels[k].edge_step, 1.2)
+        << k;  // the sun's lobe is two texels wide: coarse to predict from
   }
   EXPECT_LT(std::abs(errors.levels[0].energy), 1e-4);
   EXPECT_LT(errors.irradiance.relative_rms, 1e-4);
@@ -72,11 +73,13 @@ TEST(Ibl, TheThreeWaysToIrradianceAgreeWithinTheirErrors) {
   double largest = 0, worst_brute = 0, worst_sh = 0;
   for (std::size_t i = 0; i < exact.texels.size(); ++i) {
     largest = std::max(largest, static_cast<double>(brute.texels[i]));
-    worst_brute = std::max(worst_brute, std::abs(static_cast<double>(exact.texels[i]) - static_cast<double>(brute.texels[i])));
-    worst_sh = std::max(worst_sh, std::abs(static_cast<double>(sh.texels[i]) - static_cast<double>(brute.texels[i])));
+    worst_brute = std::max(
+        worst_brute, std::abs(static_cast<double>(exact.texels[i]) - static_cast<double>(brute.texels[i])));
+    worst_sh = std::max(worst_sh,
+                        std::abs(static_cast<double>(sh.texels[i]) - static_cast<double>(brute.texels[i])));
   }
   EXPECT_LT(worst_brute, 1e-3 * largest);
-  EXPECT_LT(worst_sh, 0.1 * largest);   // 9.4 % for one distant light, the worst case
+  EXPECT_LT(worst_sh, 0.1 * largest);  // 9.4 % for one distant light, the worst case
   EXPECT_GT(worst_sh, 10 * worst_brute);
 }
 

@@ -9,8 +9,8 @@ namespace {
 
 TEST(LevelLaw, HasThePublishedFormulas) {
   EXPECT_DOUBLE_EQ(level_to_perceptual_roughness(LevelLaw::linear, 2, 9, 256), 0.25);
-  EXPECT_DOUBLE_EQ(perceptual_roughness_to_level(LevelLaw::quadratic, 0.5, 5, 256), 3);      // 4 * 0.5 * 1.5
-  EXPECT_DOUBLE_EQ(perceptual_roughness_to_level(LevelLaw::logarithmic, 0.5, 9, 256), 6);    // log2(256 * 0.25)
+  EXPECT_DOUBLE_EQ(perceptual_roughness_to_level(LevelLaw::quadratic, 0.5, 5, 256), 3);    // 4 * 0.5 * 1.5
+  EXPECT_DOUBLE_EQ(perceptual_roughness_to_level(LevelLaw::logarithmic, 0.5, 9, 256), 6);  // log2(256 * 0.25)
 }
 
 TEST(LevelLaw, InvertsItself) {
@@ -22,7 +22,8 @@ TEST(LevelLaw, InvertsItself) {
 }
 
 TEST(LevelLaw, NamesReadBack) {
-  for (LevelLaw law : {LevelLaw::linear, LevelLaw::quadratic, LevelLaw::logarithmic}) EXPECT_EQ(parse_level_law(name(law)), law);
+  for (LevelLaw law : {LevelLaw::linear, LevelLaw::quadratic, LevelLaw::logarithmic})
+    EXPECT_EQ(parse_level_law(name(law)), law);
   EXPECT_THROW(parse_level_law("cubic"), Error);
 }
 
@@ -31,7 +32,8 @@ TEST(KernelForAlpha, PhongAndGaussianAgreeWhenNarrow) {
   const double phong = evaluate(kernel_for_alpha(KernelKind::phong, 0.05), 0.0);
   const double gaussian = evaluate(kernel_for_alpha(KernelKind::gaussian, 0.05), 0.0);
   EXPECT_NEAR(phong / gaussian, 1, 0.01);
-  EXPECT_NEAR(evaluate(kernel_for_alpha(KernelKind::phong, 1), 0.4), evaluate(make_lambert_kernel(), 0.4), 1e-12);
+  EXPECT_NEAR(evaluate(kernel_for_alpha(KernelKind::phong, 1), 0.4), evaluate(make_lambert_kernel(), 0.4),
+              1e-12);
 }
 
 }  // namespace

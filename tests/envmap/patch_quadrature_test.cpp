@@ -15,15 +15,18 @@ double midpoint(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& p,
   double sum = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const double theta = p.theta0 + (p.theta1 - p.theta0) * (i + 0.5) / n, phi = p.phi0 + (p.phi1 - p.phi0) * (j + 0.5) / n;
-      const Vec3 d = Vec3{std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)} - direction;
+      const double theta = p.theta0 + (p.theta1 - p.theta0) * (i + 0.5) / n,
+                   phi = p.phi0 + (p.phi1 - p.phi0) * (j + 0.5) / n;
+      const Vec3 d =
+          Vec3{std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)} - direction;
       sum += std::sin(theta) * evaluate(kernel, 0.5 * dot(d, d));
     }
   return sum * (p.theta1 - p.theta0) * (p.phi1 - p.phi0) / n / n;
 }
 
 double reference(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& patch) {
-  const double coarse = midpoint(kernel, direction, patch, 400), fine = midpoint(kernel, direction, patch, 800);
+  const double coarse = midpoint(kernel, direction, patch, 400),
+               fine = midpoint(kernel, direction, patch, 800);
   return fine + (fine - coarse) / 3;
 }
 
@@ -32,13 +35,16 @@ double reference(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& p
 TEST(PatchQuadrature, IsRightForWideAndNarrowKernels) {
   const SpherePatch patches[] = {equirect_patch(64, 32, 20, 12), equirect_patch(64, 32, 5, 0)};
   for (const SpherePatch& patch : patches)
-    for (const ZonalKernel& kernel : {make_ggx_kernel(0.5), make_ggx_kernel(0.05), make_ggx_kernel(0.005), make_phong_kernel(300), make_gaussian_kernel(0.02)})
+    for (const ZonalKernel& kernel : {make_ggx_kernel(0.5), make_ggx_kernel(0.05), make_ggx_kernel(0.005),
+                                      make_phong_kernel(300), make_gaussian_kernel(0.02)})
       for (const auto& [a, b] : {std::pair{0.5, 0.5}, {0.0, 0.0}, {0.9, 0.2}, {1.4, 0.5}, {6.0, 3.0}}) {
-        const double theta = patch.theta0 + a * (patch.theta1 - patch.theta0), phi = patch.phi0 + b * (patch.phi1 - patch.phi0);
+        const double theta = patch.theta0 + a * (patch.theta1 - patch.theta0),
+                     phi = patch.phi0 + b * (patch.phi1 - patch.phi0);
         const Vec3 axis{std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
         const double expected = reference(kernel, axis, patch), largest = evaluate(kernel, 0.0) * 0.01;
         // 1e-7 of the integral as the header says, with the reference's own error and values of no weight allowed for.
-        EXPECT_NEAR(integrate_kernel(kernel, axis, patch), expected, 1e-6 * expected + 1e-9 * largest) << describe(kernel) << " at " << a << " " << b;
+        EXPECT_NEAR(integrate_kernel(kernel, axis, patch), expected, 1e-6 * expected + 1e-9 * largest)
+            << describe(kernel) << " at " << a << " " << b;
       }
 }
 

@@ -45,24 +45,26 @@ TEST_P(ZonalKernels, HaveTheCoefficientsOfTheirIntegral) {
 // Core and rest share K: the rest's coefficients are those of K minus those of the core.
 TEST_P(ZonalKernels, CoreAndRestMakeTheKernel) {
   const double near = 0.3;
-  const auto whole = legendre_coefficients(GetParam(), 30), rest = legendre_coefficients_of_rest(GetParam(), near, 30);
+  const auto whole = legendre_coefficients(GetParam(), 30),
+             rest = legendre_coefficients_of_rest(GetParam(), near, 30);
   const QuadratureRule rule = gauss_legendre(200);
   for (int l : {0, 1, 9, 30}) {
     double core = 0;
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
       // theta = near x^3 puts nodes where narrow kernels vary.
       const double x = 0.5 + 0.5 * rule.nodes[i], theta = near * x * x * x, s = std::sin(theta / 2);
-      core += 0.5 * rule.weights[i] * near * 3 * x * x * 2 * pi * std::sin(theta) * evaluate(GetParam(), 2 * s * s) *
-              core_share(theta / near) * std::legendre(l, std::cos(theta));
+      core += 0.5 * rule.weights[i] * near * 3 * x * x * 2 * pi * std::sin(theta) *
+              evaluate(GetParam(), 2 * s * s) * core_share(theta / near) * std::legendre(l, std::cos(theta));
     }
     EXPECT_NEAR(rest[l] + core, whole[l], 1e-9) << "l = " << l;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ZonalKernels,
-                         testing::Values(make_ggx_kernel(0.01), make_ggx_kernel(0.25), make_ggx_kernel(1), make_phong_kernel(0),
-                                         make_phong_kernel(1), make_phong_kernel(500), make_lambert_kernel(),
-                                         make_gaussian_kernel(0.05), make_gaussian_kernel(1.2)),
+                         testing::Values(make_ggx_kernel(0.01), make_ggx_kernel(0.25), make_ggx_kernel(1),
+                                         make_phong_kernel(0), make_phong_kernel(1), make_phong_kernel(500),
+                                         make_lambert_kernel(), make_gaussian_kernel(0.05),
+                                         make_gaussian_kernel(1.2)),
                          [](const auto& param) {
                            std::string text = describe(param.param);
                            for (char& c : text)
@@ -85,7 +87,8 @@ TEST(ZonalKernel, GgxHasTheShapeOfItsDefinition) {
   };
   const ZonalKernel kernel = make_ggx_kernel(alpha);
   for (double theta : {0.1, 0.7, 1.4})
-    EXPECT_NEAR(evaluate(kernel, 1 - std::cos(theta)) / evaluate(kernel, 0), direct(theta) / direct(0), 1e-12);
+    EXPECT_NEAR(evaluate(kernel, 1 - std::cos(theta)) / evaluate(kernel, 0), direct(theta) / direct(0),
+                1e-12);
 }
 
 TEST(ZonalKernel, LambertCoefficientsAreTheCosineLobeOverPi) {

@@ -194,7 +194,7 @@ TEST(Hdr, EncoderRoundsSaturatesAndDropsWhatItCannotHold) {
                   infinity,      1, -1,  // saturates
                   std::nanf(""), 2, 4,   //
                   0x1p-128f,     0, 0,   // the smallest normal pixel
-                  0x1.8p-129f, 0, 0,   // below it
+                  0x1.8p-129f,   0, 0,   // below it
                   3.4e38f,       0, 0};
   const float top = 255 * 0x1p119f;
   EXPECT_EQ(decode_hdr(encode_hdr(image), "test.hdr").pixels,

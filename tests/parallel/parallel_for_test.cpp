@@ -23,9 +23,10 @@ TEST(ParallelFor, VisitsEveryIndexOnce) {
 
 TEST(ParallelFor, RethrowsWhatABodyThrows) {
   set_thread_count(2);
-  EXPECT_THROW(parallel_for(100, 1, [](std::size_t begin, std::size_t) {
-                 if (begin == 37) throw std::runtime_error("37");
-               }),
+  EXPECT_THROW(parallel_for(100, 1,
+                            [](std::size_t begin, std::size_t) {
+                              if (begin == 37) throw std::runtime_error("37");
+                            }),
                std::runtime_error);
   set_thread_count(0);
 }
@@ -33,9 +34,10 @@ TEST(ParallelFor, RethrowsWhatABodyThrows) {
 // Sums of floats depend on their order, so equal bits mean that the order is fixed.
 TEST(ParallelPartials, SumsAreBitIdenticalOnAnyNumberOfThreads) {
   const auto harmonic_sum = [] {
-    const auto partials = parallel_partials<float>(100'000, 64, [](float& sum, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) sum += 1 / std::sqrt(static_cast<float>(i + 1));
-    });
+    const auto partials =
+        parallel_partials<float>(100'000, 64, [](float& sum, std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) sum += 1 / std::sqrt(static_cast<float>(i + 1));
+        });
     return std::accumulate(partials.begin(), partials.end(), 0.0f);
   };
   set_thread_count(1);

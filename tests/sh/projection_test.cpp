@@ -20,7 +20,8 @@ Image map_of(int width, int height, Function&& radiance) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (int c = 0; c < 3; ++c)
-        map.at(x, y)[c] = static_cast<float>(radiance(equirect_direction({(x + 0.5) / width, (y + 0.5) / height})));
+        map.at(x, y)[c] =
+            static_cast<float>(radiance(equirect_direction({(x + 0.5) / width, (y + 0.5) / height})));
   return map;
 }
 
@@ -57,7 +58,8 @@ TEST(Projection, TexelCentresConvergeToPatches) {
   for (int i = 0; i < 2; ++i) {
     const int height = 32 << i;
     Image map(2 * height, height);
-    for (std::size_t k = 0; k < map.pixels.size(); ++k) map.pixels[k] = static_cast<float>((k * 7919) % 101) / 50;
+    for (std::size_t k = 0; k < map.pixels.size(); ++k)
+      map.pixels[k] = static_cast<float>((k * 7919) % 101) / 50;
     const ShCoefficients exact = project_equirect(map, 8), centres = project_equirect_texel_centres(map, 8);
     errors[i] = 0;
     for (std::size_t k = 0; k < exact.values.size(); ++k)

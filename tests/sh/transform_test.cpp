@@ -35,16 +35,17 @@ Spectrum analyze_slowly(const Image& map, int degree) {
     for (int column = 0; column < map.width; ++column)
       for (int a = 0; a < 16; ++a)
         for (int b = 0; b < 16; ++b) {
-          const Vec3 d = equirect_direction(
-              {(column + 0.5 + 0.5 * rule.nodes[a]) / map.width, (row + 0.5 + 0.5 * rule.nodes[b]) / map.height});
+          const Vec3 d = equirect_direction({(column + 0.5 + 0.5 * rule.nodes[a]) / map.width,
+                                             (row + 0.5 + 0.5 * rule.nodes[b]) / map.height});
           evaluate_sh_basis({d.x, d.z, d.y}, degree, y);
           const double sin_theta = std::hypot(d.x, d.z);
           const double weight = 0.25 * rule.weights[a] * rule.weights[b] * sin_theta * 2 * std::numbers::pi *
                                 std::numbers::pi / (map.width * map.height);
           for (int m = 0; m <= degree; ++m)
             for (int l = m; l <= degree; ++l) {
-              const Complex conj_basis = m == 0 ? Complex(y[sh_index(l, 0)])
-                                                : Complex(y[sh_index(l, m)], -y[sh_index(l, -m)]) / std::numbers::sqrt2;
+              const Complex conj_basis =
+                  m == 0 ? Complex(y[sh_index(l, 0)])
+                         : Complex(y[sh_index(l, m)], -y[sh_index(l, -m)]) / std::numbers::sqrt2;
               for (int c = 0; c < map.channels; ++c)
                 spectrum.values[spectrum.index(l, m) * map.channels + c] +=
                     weight * conj_basis * static_cast<double>(map.at(column, row)[c]);
@@ -67,7 +68,8 @@ TEST(Analysis, EqualsTheDefinition) {
     ASSERT_EQ(fast.values.size(), slow.values.size());
     for (std::size_t i = 0; i < fast.values.size(); ++i)
       ASSERT_LT(std::abs(fast.values[i] - slow.values[i]), 1e-8)
-          << c.width << " x " << c.height << " index " << i;  // options.accuracy times coefficients of about 4
+          << c.width << " x " << c.height << " index "
+          << i;  // options.accuracy times coefficients of about 4
   }
 }
 
@@ -104,8 +106,8 @@ TEST(Synthesis, IsStableAtHighDegreeAndOrder) {
     for (int row = 7; row < 1200; row += 131) {
       const Vec3 d = equirect_direction({777.5 / 2400, (row + 0.5) / 1200});
       evaluate_sh_basis({d.x, d.z, d.y}, 1000, y);
-      const double expected =
-          m ? std::numbers::sqrt2 * (0.6 * y[sh_index(l, m)] + 0.8 * y[sh_index(l, -m)]) : 0.6 * y[sh_index(l, 0)];
+      const double expected = m ? std::numbers::sqrt2 * (0.6 * y[sh_index(l, m)] + 0.8 * y[sh_index(l, -m)])
+                                : 0.6 * y[sh_index(l, 0)];
       ASSERT_NEAR(grid.at(row, 777)[0], expected, 1e-6)
           << l << " " << m << " row " << row;  // float storage of values below 10
     }
@@ -127,7 +129,8 @@ TEST(Transform, RoundTripKeepsLowDegrees) {
   for (int y = 0; y < 512; ++y) std::copy_n(grid.at(y, 0), 1024 * 3, map.at(0, y));
   const Spectrum back = analyze(map, {.max_degree = 6});
   for (std::size_t i = 0; i < back.values.size(); ++i)
-    ASSERT_LT(std::abs(back.values[i] - spectrum.values[i]), 2e-4);  // (l pi/512)^2/24 per axis, values to about 3
+    ASSERT_LT(std::abs(back.values[i] - spectrum.values[i]),
+              2e-4);  // (l pi/512)^2/24 per axis, values to about 3
 }
 
 TEST(Transform, IsBitIdenticalOnAnyNumberOfThreads) {

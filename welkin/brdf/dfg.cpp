@@ -89,8 +89,10 @@ struct Sums {
 
 // The weighted mean over p of (G2 / cos_view) (v.h) (1, c) for one t_h. With S as in ggx.cpp,
 // G2 / cos_view = 2 l / (cos_view S(l) + l S(view)), finite at cos_view = 0.
-Sums ring_mean(const View& view, double cos_h, double sin_h, const Azimuths& cos_azimuth, const Azimuths& weight) {
-  const float along = static_cast<float>(view.cos_view * cos_h), across = static_cast<float>(view.sin_view * sin_h);
+Sums ring_mean(const View& view, double cos_h, double sin_h, const Azimuths& cos_azimuth,
+               const Azimuths& weight) {
+  const float along = static_cast<float>(view.cos_view * cos_h),
+              across = static_cast<float>(view.sin_view * sin_h);
   const float twice_cos_h = static_cast<float>(2 * cos_h), cos_view = static_cast<float>(view.cos_view);
   const float alpha2 = static_cast<float>(view.alpha2), rest = static_cast<float>(1 - view.alpha2);
   const float s_view = static_cast<float>(view.s_view);
@@ -114,7 +116,8 @@ Sums ring_mean(const View& view, double cos_h, double sin_h, const Azimuths& cos
 }
 
 // Adds the ring at `t`, where every p counts (whole_circle) or only those up to p_max.
-void add_ring(const Rules& rule, const View& view, double t, double t_weight, bool whole_circle, Sums& total) {
+void add_ring(const Rules& rule, const View& view, double t, double t_weight, bool whole_circle,
+              Sums& total) {
   const double grown = std::exp(t);
   const double sinh = (grown - 1 / grown) / 2, cosh = (grown + 1 / grown) / 2;
   const double tan_h = view.alpha * sinh;
@@ -124,10 +127,12 @@ void add_ring(const Rules& rule, const View& view, double t, double t_weight, bo
   if (whole_circle) {
     ring = ring_mean(view, cos_h, sin_h, rule.full_cosine, rule.full_weight);
   } else {
-    const double limit = view.cos_view * (sin_h * sin_h - cos_h * cos_h) / (2 * sin_h * cos_h * view.sin_view);
+    const double limit =
+        view.cos_view * (sin_h * sin_h - cos_h * cos_h) / (2 * sin_h * cos_h * view.sin_view);
     const double p_max = std::acos(std::clamp(limit, -1.0, 1.0));
     Azimuths cosines;
-    for (int i = 0; i < azimuth_nodes; ++i) cosines[i] = cosine(static_cast<float>(p_max) * rule.azimuth_x[i]);
+    for (int i = 0; i < azimuth_nodes; ++i)
+      cosines[i] = cosine(static_cast<float>(p_max) * rule.azimuth_x[i]);
     ring = ring_mean(view, cos_h, sin_h, cosines, rule.azimuth_weight);
     scale *= p_max / pi;
   }
@@ -230,7 +235,8 @@ DfgTable make_dfg_table(const DfgOptions& options) {
       const double cos_view = (static_cast<double>(i % size) + 0.5) / static_cast<double>(size);
       const double perceptual_roughness = (static_cast<double>(i / size) + 0.5) / static_cast<double>(size);
       DfgValue value = integrate_dfg(cos_view, perceptual_roughness * perceptual_roughness);
-      if (options.form == DfgForm::scale_bias_with_multiple_scattering) value = with_multiple_scattering(value);
+      if (options.form == DfgForm::scale_bias_with_multiple_scattering)
+        value = with_multiple_scattering(value);
       table.scale_bias[2 * i] = static_cast<float>(value.scale);
       table.scale_bias[2 * i + 1] = static_cast<float>(value.bias);
     }

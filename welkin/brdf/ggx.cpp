@@ -28,7 +28,9 @@ double ggx_lambda(double cosine, double alpha) {
   return x / (2 * (std::sqrt(1 + x) + 1));
 }
 
-double ggx_masking(double cosine, double alpha) { return cosine <= 0 ? 0 : 1 / (1 + ggx_lambda(cosine, alpha)); }
+double ggx_masking(double cosine, double alpha) {
+  return cosine <= 0 ? 0 : 1 / (1 + ggx_lambda(cosine, alpha));
+}
 
 double ggx_masking_shadowing(double cos_view, double cos_light, double alpha) {
   if (cos_view <= 0 || cos_light <= 0) return 0;
@@ -80,7 +82,8 @@ double fresnel_conductor(double cosine, double eta, double k) {
 LocalVec sample_ggx_visible_normal(LocalVec view, double alpha, double u1, double u2) {
   assert(view.z > 0);
   const double stretched_length = std::hypot(alpha * view.x, alpha * view.y, view.z);
-  const LocalVec v{alpha * view.x / stretched_length, alpha * view.y / stretched_length, view.z / stretched_length};
+  const LocalVec v{alpha * view.x / stretched_length, alpha * view.y / stretched_length,
+                   view.z / stretched_length};
   const double across = std::hypot(v.x, v.y);
   const LocalVec t1 = across > 0 ? LocalVec{-v.y / across, v.x / across, 0} : LocalVec{1, 0, 0};
   const LocalVec t2{v.y * t1.z - v.z * t1.y, v.z * t1.x - v.x * t1.z, v.x * t1.y - v.y * t1.x};
@@ -89,7 +92,8 @@ LocalVec sample_ggx_visible_normal(LocalVec view, double alpha, double u1, doubl
   const double angle = 2 * std::numbers::pi * u2;
   const double p1 = radius * std::cos(angle);
   const double visible = (1 + v.z) / 2;
-  const double p2 = (1 - visible) * std::sqrt(std::max(0.0, 1 - square(p1))) + visible * radius * std::sin(angle);
+  const double p2 =
+      (1 - visible) * std::sqrt(std::max(0.0, 1 - square(p1))) + visible * radius * std::sin(angle);
   const double p3 = std::sqrt(std::max(0.0, 1 - square(p1) - square(p2)));
 
   const double x = alpha * (p1 * t1.x + p2 * t2.x + p3 * v.x);
@@ -101,7 +105,8 @@ LocalVec sample_ggx_visible_normal(LocalVec view, double alpha, double u1, doubl
 
 double ggx_visible_normal_pdf(LocalVec view, LocalVec normal, double alpha) {
   if (view.z <= 0) return 0;
-  return ggx_masking(view.z, alpha) * std::max(0.0, dot(view, normal)) * ggx_distribution(normal.z, alpha) / view.z;
+  return ggx_masking(view.z, alpha) * std::max(0.0, dot(view, normal)) * ggx_distribution(normal.z, alpha) /
+         view.z;
 }
 
 }  // namespace welkin

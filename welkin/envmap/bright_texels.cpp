@@ -15,13 +15,14 @@ double luminance(const float* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 
 // Integral over the sphere of value(luminance).
 template <class Value>
 double integrate_luminance(const Image& map, Value&& value) {
-  const auto rows = parallel_partials<double>(map.height, 16, [&](double& sum, std::size_t begin, std::size_t end) {
-    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      double row = 0;
-      for (int x = 0; x < map.width; ++x) row += value(luminance(map.at(x, y)));
-      sum += row * equirect_texel_solid_angle(map.width, map.height, y);
-    }
-  });
+  const auto rows =
+      parallel_partials<double>(map.height, 16, [&](double& sum, std::size_t begin, std::size_t end) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+          double row = 0;
+          for (int x = 0; x < map.width; ++x) row += value(luminance(map.at(x, y)));
+          sum += row * equirect_texel_solid_angle(map.width, map.height, y);
+        }
+      });
   double sum = 0;
   for (double row : rows) sum += row;
   return sum;
@@ -63,8 +64,12 @@ BrightSplit split_bright_texels(const Image& equirect, const BrightOptions& opti
               [](const Candidate& a, const Candidate& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
   }
   for (const Candidate& c : bright) {
-    BrightTexel texel{c.x, c.y, {}, equirect_texel_solid_angle(equirect.width, equirect.height, c.y),
-                      equirect_patch(equirect.width, equirect.height, c.x, c.y), {}};
+    BrightTexel texel{c.x,
+                      c.y,
+                      {},
+                      equirect_texel_solid_angle(equirect.width, equirect.height, c.y),
+                      equirect_patch(equirect.width, equirect.height, c.x, c.y),
+                      {}};
     texel.direction = equirect_direction({(c.x + 0.5) / equirect.width, (c.y + 0.5) / equirect.height});
     float* rest = split.residual.at(c.x, c.y);
     for (int i = 0; i < 3; ++i) {
@@ -74,7 +79,8 @@ BrightSplit split_bright_texels(const Image& equirect, const BrightOptions& opti
     }
     split.texels.push_back(texel);
   }
-  split.busy_flux = integrate_luminance(split.residual, [&](double l) { return std::max(0.0, l - 4 * split.mean); });
+  split.busy_flux =
+      integrate_luminance(split.residual, [&](double l) { return std::max(0.0, l - 4 * split.mean); });
   return split;
 }
 

@@ -10,8 +10,8 @@ namespace welkin {
 /// A texel that outshines its map: what it has above the threshold, the rest staying in the map.
 struct BrightTexel {
   int x = 0, y = 0;
-  Vec3 direction;                ///< of its centre
-  double solid_angle = 0;        ///< sr
+  Vec3 direction;          ///< of its centre
+  double solid_angle = 0;  ///< sr
   SpherePatch patch;
   std::array<double, 3> radiance{};  ///< the excess
 };
@@ -20,13 +20,13 @@ struct BrightTexel {
 struct BrightSplit {
   Image residual;
   std::vector<BrightTexel> texels;
-  double threshold = 0;     ///< luminance above which a texel is split
-  double mean = 0;          ///< mean luminance of the whole map over the sphere
-  double busy_flux = 0;     ///< integral of the residual's luminance above 4 * mean, over the sphere
+  double threshold = 0;  ///< luminance above which a texel is split
+  double mean = 0;       ///< mean luminance of the whole map over the sphere
+  double busy_flux = 0;  ///< integral of the residual's luminance above 4 * mean, over the sphere
 };
 
 struct BrightOptions {
-  int max_texels = 64;          ///< the threshold rises until no more than these lie above it
+  int max_texels = 64;  ///< the threshold rises until no more than these lie above it
   double threshold_over_mean = 16;
 };
 

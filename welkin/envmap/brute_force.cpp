@@ -18,7 +18,8 @@ constexpr double pi = std::numbers::pi;
 
 // 1 - cos of the angle between (theta, phi) and (theta', phi') without cancellation:
 //   2 sin^2((theta - theta')/2) + 2 sin theta sin theta' sin^2((phi - phi')/2).
-WELKIN_TARGET_CLONES void one_minus_cosines(double polar, double factor, const double* half_sines, double* u, int count) {
+WELKIN_TARGET_CLONES void one_minus_cosines(double polar, double factor, const double* half_sines, double* u,
+                                            int count) {
   for (int i = 0; i < count; ++i) u[i] = std::min(2.0, polar + factor * half_sines[i]);
 }
 
@@ -50,12 +51,16 @@ struct LookUp {
 // One row of a map, seen from a direction.
 struct RowView {
   int width, height, row;
-  double half, centre;    // half the row's height and its middle, in theta
-  double half_texel;      // half the longer side of a texel
-  double distance;        // from the direction to the row
+  double half, centre;  // half the row's height and its middle, in theta
+  double half_texel;    // half the longer side of a texel
+  double distance;      // from the direction to the row
 
   RowView(const LookUp& at, int map_width, int map_height, int map_row)
-      : width(map_width), height(map_height), row(map_row), half(pi / (2.0 * map_height)), centre((2 * map_row + 1) * half) {
+      : width(map_width),
+        height(map_height),
+        row(map_row),
+        half(pi / (2.0 * map_height)),
+        centre((2 * map_row + 1) * half) {
     half_texel = std::max(half, std::sin(centre) * pi / width);
     distance = std::max(0.0, std::abs(centre - at.theta) - half);
   }
@@ -75,17 +80,20 @@ void add_node_row(const ZonalKernel& kernel, const LookUp& at, const RowView& ro
 }
 
 // The texels of a row that may be too near for two nodes a side get the adaptive rule.
-void replace_near_texels(const ZonalKernel& kernel, const LookUp& at, const RowView& row, std::vector<double>& weights) {
+void replace_near_texels(const ZonalKernel& kernel, const LookUp& at, const RowView& row,
+                         std::vector<double>& weights) {
   const double reach = (two_node_distance + 2) * row.half_texel;
   const double flat = std::sqrt(std::max(0.0, reach * reach - row.distance * row.distance));
-  const double sine = std::min({std::sin(at.theta), std::sin(row.centre - row.half), std::sin(row.centre + row.half)});
+  const double sine =
+      std::min({std::sin(at.theta), std::sin(row.centre - row.half), std::sin(row.centre + row.half)});
   const double span = std::min(pi, pi / 2 * flat / std::max(1e-9, sine));
   const int middle = static_cast<int>(std::floor((at.phi / (2 * pi) + 0.5) * row.width));
   const int columns = std::min(row.width / 2, static_cast<int>(std::ceil(span / (2 * pi) * row.width)) + 1);
   const int first = middle - columns, last = std::min(middle + columns, first + row.width - 1);
   for (int x = first; x <= last; ++x) {
     const int column = (x % row.width + row.width) % row.width;
-    weights[column] = integrate_kernel(kernel, at.direction, equirect_patch(row.width, row.height, column, row.row));
+    weights[column] =
+        integrate_kernel(kernel, at.direction, equirect_patch(row.width, row.height, column, row.row));
   }
 }
 

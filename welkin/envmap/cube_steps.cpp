@@ -16,7 +16,8 @@ struct Texel {
 
 // The texel across the edge from (face, x, y), one step beyond it in direction (dx, dy).
 Texel across(int size, Texel from, int dx, int dy) {
-  const CubePoint p = cube_point(cube_ray({from.face, (2 * (from.x + dx) + 1.0) / size - 1, (2 * (from.y + dy) + 1.0) / size - 1}));
+  const CubePoint p = cube_point(
+      cube_ray({from.face, (2 * (from.x + dx) + 1.0) / size - 1, (2 * (from.y + dy) + 1.0) / size - 1}));
   const auto texel = [size](double s) { return std::min(size - 1, static_cast<int>((s + 1) * 0.5 * size)); };
   return {p.face, texel(p.s), texel(p.t)};
 }
@@ -34,7 +35,8 @@ std::array<double, 4> slope(const Cube& cube, Texel a, Texel b, Vec3 crossing) {
   const float* vb = cube.at(b.face, b.x, b.y);
   const double way = dot(direction_of(cube, b) - direction_of(cube, a), crossing);
   std::array<double, 4> result{};
-  for (int c = 0; c < cube.channels; ++c) result[c] = (static_cast<double>(vb[c]) - static_cast<double>(va[c])) / way;
+  for (int c = 0; c < cube.channels; ++c)
+    result[c] = (static_cast<double>(vb[c]) - static_cast<double>(va[c])) / way;
   return result;
 }
 
@@ -79,7 +81,8 @@ double edge_step_ratio(const Cube& cube) {
     for (int y = 0; y < n; ++y)
       for (int x = 0; x < n; ++x)
         for (const auto& out : outwards)
-          if (!on_face(n, x + out[0], y + out[1])) add_crossing(cube, crossing(n, {face, x, y}, out[0], out[1]), edge, predicted);
+          if (!on_face(n, x + out[0], y + out[1]))
+            add_crossing(cube, crossing(n, {face, x, y}, out[0], out[1]), edge, predicted);
   return predicted > 0 ? edge / predicted : 0;
 }
 

@@ -27,12 +27,18 @@ SphereMap read_map(std::string_view input, const EnvironmentOptions& options, En
   if (loaded.is_cube()) return sphere_map_from_cube(std::move(loaded.cube.levels.front()));
   Image& flat = loaded.flat;
   const auto guess = guess_flat_content(flat.width, flat.height);
-  const Mapping mapping = options.mapping ? *options.mapping : guess ? guess->mapping : Mapping::equirectangular;
+  const Mapping mapping = options.mapping ? *options.mapping
+                          : guess         ? guess->mapping
+                                          : Mapping::equirectangular;
   if (!options.mapping && !guess)
-    throw Error(input, fmt::format("{} x {} is neither 2:1 (equirectangular) nor a cube cross or strip; say what it is "
-                                   "with --mapping", flat.width, flat.height));
+    throw Error(
+        input,
+        fmt::format("{} x {} is neither 2:1 (equirectangular) nor a cube cross or strip; say what it is "
+                    "with --mapping",
+                    flat.width, flat.height));
   if (mapping == Mapping::cube) {
-    if (!guess || !guess->layout) throw Error(input, fmt::format("{} x {} is no cube cross or strip", flat.width, flat.height));
+    if (!guess || !guess->layout)
+      throw Error(input, fmt::format("{} x {} is no cube cross or strip", flat.width, flat.height));
     return sphere_map_from_cube(cube_from_layout(flat, *guess->layout));
   }
   return {mapping, std::move(flat)};
@@ -41,8 +47,8 @@ SphereMap read_map(std::string_view input, const EnvironmentOptions& options, En
 void check_shape(std::string_view input, const SphereMap& map, bool given) {
   // An equirectangular map of other proportions still covers the sphere, but nobody means that by accident.
   if (map.mapping == Mapping::equirectangular && !given && map.image.width != 2 * map.image.height)
-    throw Error(input, fmt::format("{} x {} is not 2:1; say --mapping equirectangular if it is meant", map.image.width,
-                                   map.image.height));
+    throw Error(input, fmt::format("{} x {} is not 2:1; say --mapping equirectangular if it is meant",
+                                   map.image.width, map.image.height));
   try {
     check_map_shape(map.shape());
   } catch (const Error& error) {
@@ -63,12 +69,13 @@ Environment load_environment(std::string_view input, const EnvironmentOptions& o
   environment.source = std::string(input);
   SphereMap map = read_map(input, options, environment);
   check_shape(input, map, options.mapping.has_value());
-  environment.description = fmt::format("{} {} x {}, {}", mapping_name(map.mapping), map.image.width, map.image.height,
-                                        environment.description);
+  environment.description = fmt::format("{} {} x {}, {}", mapping_name(map.mapping), map.image.width,
+                                        map.image.height, environment.description);
   environment.faults = repair_faults(map.image.pixels, options.faults, input);
   if (environment.faults.total() > 0)
-    environment.warnings.push_back(fmt::format("repaired {} NaN, {} infinite and {} negative values", environment.faults.nan,
-                                               environment.faults.infinite, environment.faults.negative));
+    environment.warnings.push_back(fmt::format("repaired {} NaN, {} infinite and {} negative values",
+                                               environment.faults.nan, environment.faults.infinite,
+                                               environment.faults.negative));
   const auto [smallest, largest] = std::minmax_element(map.image.pixels.begin(), map.image.pixels.end());
   environment.smallest = *smallest;
   environment.largest = *largest;

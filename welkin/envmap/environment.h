@@ -23,10 +23,10 @@ struct EnvironmentOptions {
 
 /// An environment ready for every algorithm of this module.
 struct Environment {
-  Image radiance;            ///< equirectangular, 3 channels, linear Rec. 709, finite and >= 0
-  std::string source;        ///< the file or sky that it came from
-  std::string description;   ///< "equirectangular 1024 x 512, Radiance HDR"
-  PixelFaults faults;        ///< values that were repaired
+  Image radiance;                   ///< equirectangular, 3 channels, linear Rec. 709, finite and >= 0
+  std::string source;               ///< the file or sky that it came from
+  std::string description;          ///< "equirectangular 1024 x 512, Radiance HDR"
+  PixelFaults faults;               ///< values that were repaired
   float smallest = 0, largest = 0;  ///< of any channel of the input itself, repaired, before any resampling
   std::vector<std::string> warnings;
 };

@@ -26,7 +26,8 @@ class Stopwatch {
 };
 
 // Every texel: the band-limited part from the grid, the bright texels and the kernel's core summed directly.
-Cube gather(const FilterTarget& target, const KernelPlan& plan, const SphereGrid& grid, const BrightSplit& map) {
+Cube gather(const FilterTarget& target, const KernelPlan& plan, const SphereGrid& grid,
+            const BrightSplit& map) {
   Cube cube(target.size);
   const std::size_t rows = std::size_t{6} * target.size;
   parallel_for(rows, std::max<std::size_t>(1, 64 / target.size), [&](std::size_t begin, std::size_t end) {
@@ -39,7 +40,8 @@ Cube gather(const FilterTarget& target, const KernelPlan& plan, const SphereGrid
         interpolate(grid, direction, smooth);
         double rgb[3] = {smooth[0], smooth[1], smooth[2]};
         bright.add(direction, target.scale, rgb);
-        if (plan.near_angle > 0) add_core(map.residual, target.kernel, plan.near_angle, direction, target.scale, rgb);
+        if (plan.near_angle > 0)
+          add_core(map.residual, target.kernel, plan.near_angle, direction, target.scale, rgb);
         // The exact result is not negative; the error of the band limit may be.
         for (int c = 0; c < 3; ++c) cube.at(face, x, y)[c] = static_cast<float>(std::max(0.0, rgb[c]));
       }
@@ -78,7 +80,8 @@ std::vector<Cube> filter_environment(const Image& radiance, std::span<const Filt
     const double largest_error = options.tolerance / 3 * targets[i].scale * map.mean;
     const SynthesisPlan synthesis = plan_synthesis(plans[i].factors, power, largest_error);
     plans[i].factors.resize(synthesis.degree + 1);
-    const SphereGrid grid = synthesize(convolve(spectrum, plans[i].factors), synthesis.grid_rows, 2 * synthesis.grid_rows);
+    const SphereGrid grid =
+        synthesize(convolve(spectrum, plans[i].factors), synthesis.grid_rows, 2 * synthesis.grid_rows);
     cubes.push_back(gather(targets[i], plans[i], grid, map));
     made.levels.push_back({synthesis.degree, synthesis.grid_rows, plans[i].near_angle, level_time.seconds()});
     progress(0.4 + 0.6 * static_cast<double>(i + 1) / static_cast<double>(targets.size()));

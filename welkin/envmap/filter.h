@@ -24,15 +24,16 @@ struct FilterOptions {
 };
 
 struct FilterLevelReport {
-  int degree = 0;        ///< of the spectrum that was synthesised; -1 where there was none
-  int grid_rows = 0;     ///< of the grid that the faces were interpolated from
-  double near_angle = 0; ///< rad; where the kernel was too narrow for the transform, its core was summed directly
+  int degree = 0;     ///< of the spectrum that was synthesised; -1 where there was none
+  int grid_rows = 0;  ///< of the grid that the faces were interpolated from
+  double near_angle =
+      0;  ///< rad; where the kernel was too narrow for the transform, its core was summed directly
   double seconds = 0;
 };
 
 struct FilterReport {
-  int degree = 0;             ///< of the analysis
-  int bright_texels = 0;      ///< summed directly
+  int degree = 0;         ///< of the analysis
+  int bright_texels = 0;  ///< summed directly
   double analysis_seconds = 0;
   std::vector<FilterLevelReport> levels;
 };

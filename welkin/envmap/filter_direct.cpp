@@ -13,8 +13,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // 1 - cos = |a - b|^2 / 2 for unit vectors.
-WELKIN_TARGET_CLONES void one_minus_cosines(const double* x, const double* y, const double* z, Vec3 d, double* u,
-                                            std::size_t count) {
+WELKIN_TARGET_CLONES void one_minus_cosines(const double* x, const double* y, const double* z, Vec3 d,
+                                            double* u, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const double dx = x[i] - d.x, dy = y[i] - d.y, dz = z[i] - d.z;
     u[i] = std::min(2.0, 0.5 * (dx * dx + dy * dy + dz * dz));
@@ -28,11 +28,13 @@ double half_side(const SpherePatch& patch) {
 
 }  // namespace
 
-BrightSum::BrightSum(std::span<const BrightTexel> texels, const ZonalKernel& kernel) : texels_(texels), kernel_(kernel) {
+BrightSum::BrightSum(std::span<const BrightTexel> texels, const ZonalKernel& kernel)
+    : texels_(texels), kernel_(kernel) {
   const double width = angular_width(kernel);
   for (const BrightTexel& texel : texels)
     if (width < one_node_distance * half_side(texel.patch)) nodes_ = 4;
-  for (std::vector<double>* array : {&x_, &y_, &z_, &area_, &one_minus_cos_, &value_}) array->resize(texels.size() * nodes_);
+  for (std::vector<double>* array : {&x_, &y_, &z_, &area_, &one_minus_cos_, &value_})
+    array->resize(texels.size() * nodes_);
   for (std::size_t t = 0; t < texels.size(); ++t) {
     const SpherePatch& patch = texels[t].patch;
     const double half_theta = 0.5 * (patch.theta1 - patch.theta0), half_phi = 0.5 * (patch.phi1 - patch.phi0);
@@ -66,15 +68,18 @@ void BrightSum::add(Vec3 direction, double scale, double* rgb) {
   }
 }
 
-void add_core(const Image& map, const ZonalKernel& kernel, double near_angle, Vec3 direction, double scale, double* rgb) {
+void add_core(const Image& map, const ZonalKernel& kernel, double near_angle, Vec3 direction, double scale,
+              double* rgb) {
   const Uv uv = equirect_uv(direction);
   const double theta = pi * uv.v;
   const int first_row = std::max(0, static_cast<int>(std::floor((theta - near_angle) / pi * map.height)));
-  const int last_row = std::min(map.height - 1, static_cast<int>(std::floor((theta + near_angle) / pi * map.height)));
+  const int last_row =
+      std::min(map.height - 1, static_cast<int>(std::floor((theta + near_angle) / pi * map.height)));
   for (int row = first_row; row <= last_row; ++row) {
     const double sine = std::min(std::sin(pi * row / map.height), std::sin(pi * (row + 1) / map.height));
     // Chord in azimuth >= 2 sqrt(sine sin theta) sin(dphi/2) must not exceed that of near_angle.
-    const double ratio = std::sin(std::min(0.5 * near_angle, pi / 2)) / std::max(1e-12, std::sqrt(sine * std::sin(theta)));
+    const double ratio =
+        std::sin(std::min(0.5 * near_angle, pi / 2)) / std::max(1e-12, std::sqrt(sine * std::sin(theta)));
     const double dphi = ratio >= 1 ? pi : 2 * std::asin(ratio);
     const int middle = static_cast<int>(uv.u * map.width);
     const int columns = std::min(map.width / 2, static_cast<int>(std::ceil(dphi / (2 * pi) * map.width)) + 1);
@@ -82,7 +87,8 @@ void add_core(const Image& map, const ZonalKernel& kernel, double near_angle, Ve
     for (int x = first; x <= last; ++x) {
       const int column = (x % map.width + map.width) % map.width;
       const double weight =
-          scale * integrate_kernel(kernel, direction, equirect_patch(map.width, map.height, column, row), near_angle);
+          scale *
+          integrate_kernel(kernel, direction, equirect_patch(map.width, map.height, column, row), near_angle);
       for (int c = 0; c < 3; ++c) rgb[c] += weight * static_cast<double>(map.at(column, row)[c]);
     }
   }

@@ -20,13 +20,14 @@ class BrightSum {
  private:
   std::span<const BrightTexel> texels_;
   ZonalKernel kernel_;
-  int nodes_ = 1;                             // a texel: 1 or 4
-  std::vector<double> x_, y_, z_, area_;      // [node of texel * texel count + texel]
-  std::vector<double> reach_squared_;         // nearer than this (chord) the adaptive rule is needed
+  int nodes_ = 1;                         // a texel: 1 or 4
+  std::vector<double> x_, y_, z_, area_;  // [node of texel * texel count + texel]
+  std::vector<double> reach_squared_;     // nearer than this (chord) the adaptive rule is needed
   std::vector<double> one_minus_cos_, value_;
 };
 
 /// Adds scale * sum over the texels of `map` of radiance * integral of the kernel's core (within near_angle) to rgb[3].
-void add_core(const Image& map, const ZonalKernel& kernel, double near_angle, Vec3 direction, double scale, double* rgb);
+void add_core(const Image& map, const ZonalKernel& kernel, double near_angle, Vec3 direction, double scale,
+              double* rgb);
 
 }  // namespace welkin

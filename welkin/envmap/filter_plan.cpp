@@ -74,14 +74,18 @@ double core_cost(const FilterTarget& target, double near_angle, int map_rows) {
 KernelPlan plan_kernel(const FilterTarget& target, const BrightSplit& map, double tolerance) {
   KernelPlan plan;
   const int rows = map.residual.height;
-  plan.factors = factors_within([&](int degree) { return legendre_coefficients(target.kernel, degree); }, map, tolerance);
+  plan.factors = factors_within([&](int degree) { return legendre_coefficients(target.kernel, degree); }, map,
+                                tolerance);
   double cost = plan.factors.empty() ? INFINITY : transform_cost(static_cast<int>(plan.factors.size()), rows);
   const double width = angular_width(target.kernel);
-  for (double near_angle = 4 * width; near_angle < 0.5 && core_cost(target, near_angle, rows) < cost; near_angle *= 2) {
+  for (double near_angle = 4 * width; near_angle < 0.5 && core_cost(target, near_angle, rows) < cost;
+       near_angle *= 2) {
     std::vector<double> rest = factors_within(
-        [&](int degree) { return legendre_coefficients_of_rest(target.kernel, near_angle, degree); }, map, tolerance);
+        [&](int degree) { return legendre_coefficients_of_rest(target.kernel, near_angle, degree); }, map,
+        tolerance);
     if (rest.empty()) continue;
-    const double split_cost = core_cost(target, near_angle, rows) + transform_cost(static_cast<int>(rest.size()), rows);
+    const double split_cost =
+        core_cost(target, near_angle, rows) + transform_cost(static_cast<int>(rest.size()), rows);
     if (split_cost >= cost) continue;
     cost = split_cost;
     plan = {std::move(rest), near_angle};
@@ -114,7 +118,8 @@ SynthesisPlan plan_synthesis(const std::vector<double>& factors, const std::vect
     return n == 1;
   };
   plan.grid_rows = std::max(16, plan.degree + 2);
-  while (plan.grid_rows % 4 != 0 || !is_smooth(plan.grid_rows) || interpolation_error(plan.grid_rows) > largest_error)
+  while (plan.grid_rows % 4 != 0 || !is_smooth(plan.grid_rows) ||
+         interpolation_error(plan.grid_rows) > largest_error)
     ++plan.grid_rows;
   return plan;
 }

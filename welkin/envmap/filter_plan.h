@@ -24,6 +24,7 @@ struct SynthesisPlan {
   int degree = 0;
   int grid_rows = 0;
 };
-SynthesisPlan plan_synthesis(const std::vector<double>& factors, const std::vector<double>& degree_power, double largest_error);
+SynthesisPlan plan_synthesis(const std::vector<double>& factors, const std::vector<double>& degree_power,
+                             double largest_error);
 
 }  // namespace welkin

@@ -28,7 +28,8 @@ double timed(Work&& work) {
 }
 
 void check(const char* what, int value, int low, int high) {
-  if (value < low || value > high) throw Error(fmt::format("{} must lie in [{}, {}], not {}", what, low, high, value));
+  if (value < low || value > high)
+    throw Error(fmt::format("{} must lie in [{}, {}], not {}", what, low, high, value));
 }
 
 int full_levels(int size) {
@@ -104,7 +105,8 @@ IblSet make_ibl(const Image& radiance, const IblOptions& given) {
   };
   IblSet set;
   set.levels = plan_levels(options);
-  set.seconds_environment = timed([&] { set.environment = build_mips(equirect_to_cube(radiance, options.size)); });
+  set.seconds_environment =
+      timed([&] { set.environment = build_mips(equirect_to_cube(radiance, options.size)); });
   progress(0.1);
 
   std::vector<FilterTarget> targets;
@@ -124,8 +126,12 @@ IblSet make_ibl(const Image& radiance, const IblOptions& given) {
   set.seconds_irradiance = timed([&] {
     switch (options.diffuse) {
       case DiffuseMethod::frequency: set.irradiance = std::move(filtered.back()); break;
-      case DiffuseMethod::sh: set.irradiance = irradiance_from_sh(project_equirect(radiance, 2), options.irradiance_size); break;
-      case DiffuseMethod::brute_force: set.irradiance = irradiance_brute_force(radiance, options.irradiance_size); break;
+      case DiffuseMethod::sh:
+        set.irradiance = irradiance_from_sh(project_equirect(radiance, 2), options.irradiance_size);
+        break;
+      case DiffuseMethod::brute_force:
+        set.irradiance = irradiance_brute_force(radiance, options.irradiance_size);
+        break;
     }
   });
   if (options.diffuse == DiffuseMethod::frequency) set.seconds_irradiance = set.filter.levels.back().seconds;

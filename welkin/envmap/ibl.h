@@ -17,32 +17,33 @@ enum class DiffuseMethod {
 };
 
 struct IblOptions {
-  int size = 256;               ///< texels along an edge of the specular map's level 0 and of the environment, 1 to 8192
-  int levels = 0;               ///< of the specular map, at least 1, at most log2(size) + 1; 0: default_levels(size)
+  int size = 256;  ///< texels along an edge of the specular map's level 0 and of the environment, 1 to 8192
+  int levels = 0;  ///< of the specular map, at least 1, at most log2(size) + 1; 0: default_levels(size)
   KernelKind kernel = KernelKind::ggx;
   LevelLaw law = LevelLaw::linear;
-  int irradiance_size = 64;     ///< 1 to 1024
+  int irradiance_size = 64;  ///< 1 to 1024
   DiffuseMethod diffuse = DiffuseMethod::frequency;
-  int sh_degree = 2;            ///< of the radiance coefficients, 0 to max_projection_degree
-  int dfg_size = 128;           ///< 1 to 4096
+  int sh_degree = 2;   ///< of the radiance coefficients, 0 to max_projection_degree
+  int dfg_size = 128;  ///< 1 to 4096
   DfgForm dfg_form = DfgForm::scale_bias;
-  FilterOptions filter;         ///< its progress covers all of make_ibl
+  FilterOptions filter;  ///< its progress covers all of make_ibl
 };
 
 /// What a level of the specular map is.
 struct IblLevel {
   double perceptual_roughness = 0;
-  double alpha = 0;        ///< GGX width, perceptual_roughness^2
-  ZonalKernel kernel;      ///< not used at level 0, which is the environment itself
+  double alpha = 0;    ///< GGX width, perceptual_roughness^2
+  ZonalKernel kernel;  ///< not used at level 0, which is the environment itself
   FilterLevelReport report;
 };
 
 /// Everything that image-based lighting needs of one environment. Linear Rec. 709, in the units of the input.
 struct IblSet {
-  CubeMips environment;        ///< radiance, area-averaged; full chain of area-averaged mips
-  CubeMips specular;           ///< radiance filtered by each level's kernel, normalised to 1; level 0 = the environment
+  CubeMips environment;  ///< radiance, area-averaged; full chain of area-averaged mips
+  CubeMips
+      specular;  ///< radiance filtered by each level's kernel, normalised to 1; level 0 = the environment
   std::vector<IblLevel> levels;
-  Cube irradiance;             ///< E = integral of L max(0, cos): pi times the radiance of a constant environment
+  Cube irradiance;  ///< E = integral of L max(0, cos): pi times the radiance of a constant environment
   ShCoefficients radiance_sh;  ///< of the radiance, nothing convolved or divided
   DfgTable dfg;                ///< (scale, bias), in the form that the options ask for
   FilterReport filter;

@@ -8,9 +8,9 @@
 namespace welkin {
 
 enum class LevelLaw {
-  linear,     ///< level = perceptual_roughness (levels - 1): the default, and what most viewers assume
-  quadratic,  ///< level = (levels - 1) r (2 - r): Filament, and three.js for a ready-made map
-  logarithmic ///< level = log2(size * alpha): Babylon.js with lodGenerationScale 1; the first level is mirror
+  linear,      ///< level = perceptual_roughness (levels - 1): the default, and what most viewers assume
+  quadratic,   ///< level = (levels - 1) r (2 - r): Filament, and three.js for a ready-made map
+  logarithmic  ///< level = log2(size * alpha): Babylon.js with lodGenerationScale 1; the first level is mirror
 };
 
 /// "linear", "quadratic", "log2". Throws Error naming the choices.

@@ -25,8 +25,8 @@ Vec3 direction_of(double theta, double phi) {
   return {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
 }
 
-double integrate_with_nodes(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& patch, double near_angle,
-                            int nodes) {
+double integrate_with_nodes(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& patch,
+                            double near_angle, int nodes) {
   const QuadratureRule& rule = rule_of(nodes);
   const double half_theta = 0.5 * (patch.theta1 - patch.theta0), half_phi = 0.5 * (patch.phi1 - patch.phi0);
   double sum = 0;
@@ -34,7 +34,8 @@ double integrate_with_nodes(const ZonalKernel& kernel, Vec3 direction, const Sph
     const double theta = 0.5 * (patch.theta0 + patch.theta1) + half_theta * rule.nodes[i];
     double u[max_nodes], values[max_nodes], row = 0;
     for (int j = 0; j < nodes; ++j) {
-      const Vec3 d = direction_of(theta, 0.5 * (patch.phi0 + patch.phi1) + half_phi * rule.nodes[j]) - direction;
+      const Vec3 d =
+          direction_of(theta, 0.5 * (patch.phi0 + patch.phi1) + half_phi * rule.nodes[j]) - direction;
       u[j] = std::min(2.0, 0.5 * dot(d, d));
     }
     evaluate(kernel, std::span(u, nodes), std::span(values, nodes));
@@ -60,9 +61,11 @@ int patch_nodes(double singularity_distance, double half_width) {
   return std::max(2, static_cast<int>(std::ceil(9.2 / log_rho)));  // 2 * 9.2 = ln 1e8
 }
 
-double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& patch, double near_angle) {
+double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& patch,
+                        double near_angle) {
   const double theta = 0.5 * (patch.theta0 + patch.theta1), phi = 0.5 * (patch.phi0 + patch.phi1);
-  const double half = std::max(0.5 * (patch.theta1 - patch.theta0), 0.5 * (patch.phi1 - patch.phi0) * std::sin(theta));
+  const double half =
+      std::max(0.5 * (patch.theta1 - patch.theta0), 0.5 * (patch.phi1 - patch.phi0) * std::sin(theta));
   const double to_centre = length(direction_of(theta, phi) - direction);
   const double distance = std::max(0.0, to_centre - std::numbers::sqrt2 * half);
   // The window varies over about a quarter of its angle.

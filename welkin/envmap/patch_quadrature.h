@@ -24,6 +24,7 @@ inline constexpr double one_node_distance = 500, two_node_distance = 50;
 
 /// Integral of K(angle to direction) over the patch, to a relative error of about 1e-7, however narrow K is. With
 /// near_angle > 0, of the kernel's core alone (see core_share in zonal_kernel.h).
-double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& patch, double near_angle = 0);
+double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& patch,
+                        double near_angle = 0);
 
 }  // namespace welkin

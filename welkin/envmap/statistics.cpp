@@ -22,7 +22,8 @@ struct RowSums {
 };
 
 double luminance(const float* rgb) {
-  return 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) + 0.0722 * static_cast<double>(rgb[2]);
+  return 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) +
+         0.0722 * static_cast<double>(rgb[2]);
 }
 
 // The integral of max(0, cos theta) sin theta over a row, exactly: half the difference of sin^2 theta, for the part of
@@ -59,9 +60,10 @@ void add_row(const Image& map, int y, RowSums& sums) {
 
 MapStatistics map_statistics(const Image& radiance) {
   assert(radiance.channels == 3 && !radiance.empty());
-  const auto parts = parallel_partials<RowSums>(radiance.height, 16, [&](RowSums& sums, std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) add_row(radiance, static_cast<int>(y), sums);
-  });
+  const auto parts =
+      parallel_partials<RowSums>(radiance.height, 16, [&](RowSums& sums, std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y) add_row(radiance, static_cast<int>(y), sums);
+      });
   RowSums all;
   for (const RowSums& part : parts) {
     for (int c = 0; c < 3; ++c) {
@@ -87,10 +89,12 @@ MapStatistics map_statistics(const Image& radiance) {
   result.brightest_x = all.x;
   result.brightest_y = all.y;
   result.brightest_luminance = all.brightest;
-  result.brightest_direction = equirect_direction({(all.x + 0.5) / radiance.width, (all.y + 0.5) / radiance.height});
+  result.brightest_direction =
+      equirect_direction({(all.x + 0.5) / radiance.width, (all.y + 0.5) / radiance.height});
   const double energy = 0.2126 * all.energy[0] + 0.7152 * all.energy[1] + 0.0722 * all.energy[2];
   if (energy > 0)
-    result.brightest_share = all.brightest * equirect_texel_solid_angle(radiance.width, radiance.height, all.y) / energy;
+    result.brightest_share =
+        all.brightest * equirect_texel_solid_angle(radiance.width, radiance.height, all.y) / energy;
   return result;
 }
 

@@ -63,16 +63,21 @@ TexelChoice choose_texels(const Cube& cube, const VerifyOptions& options) {
   std::mt19937 random(options.seed);
   const auto pick = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
   for (int i = 0; i < options.directions; ++i) choice.anywhere.push_back({pick(6), pick(n), pick(n)});
-  const std::size_t brightest = static_cast<std::size_t>(std::max_element(cube.texels.begin(), cube.texels.end()) - cube.texels.begin()) / 3;
+  const std::size_t brightest =
+      static_cast<std::size_t>(std::max_element(cube.texels.begin(), cube.texels.end()) -
+                               cube.texels.begin()) /
+      3;
   const int face = static_cast<int>(brightest / (static_cast<std::size_t>(n) * n));
   const int by = static_cast<int>(brightest / n % n), bx = static_cast<int>(brightest % n);
   choice.near_brightest.push_back({face, bx, by});
   for (int i = 1; i < options.directions / 2; ++i)
-    choice.near_brightest.push_back({face, std::clamp(bx + pick(9) - 4, 0, n - 1), std::clamp(by + pick(9) - 4, 0, n - 1)});
+    choice.near_brightest.push_back(
+        {face, std::clamp(bx + pick(9) - 4, 0, n - 1), std::clamp(by + pick(9) - 4, 0, n - 1)});
   return choice;
 }
 
-double add_texels(const Image& radiance, const Cube& cube, const ZonalKernel& kernel, double scale, const std::vector<Texel>& texels, ErrorSum& sum) {
+double add_texels(const Image& radiance, const Cube& cube, const ZonalKernel& kernel, double scale,
+                  const std::vector<Texel>& texels, ErrorSum& sum) {
   std::vector<Vec3> directions;
   for (const Texel& t : texels) directions.push_back(cube_texel_direction(cube.size, t.face, t.x, t.y));
   std::vector<double> truths = filter_brute_force(radiance, directions, std::span(&kernel, 1));
@@ -83,7 +88,8 @@ double add_texels(const Image& radiance, const Cube& cube, const ZonalKernel& ke
   return sum.largest;
 }
 
-void add_lookups(const Image& radiance, const Cube& cube, const ZonalKernel& kernel, double scale, std::span<const Vec3> directions, ErrorSum& sum) {
+void add_lookups(const Image& radiance, const Cube& cube, const ZonalKernel& kernel, double scale,
+                 std::span<const Vec3> directions, ErrorSum& sum) {
   std::vector<double> truths = filter_brute_force(radiance, directions, std::span(&kernel, 1));
   for (std::size_t i = 0; i < directions.size(); ++i) {
     for (int c = 0; c < 3; ++c) truths[3 * i + c] *= scale;
@@ -93,15 +99,16 @@ void add_lookups(const Image& radiance, const Cube& cube, const ZonalKernel& ker
   }
 }
 
-LevelErrors verify_cube(const Image& radiance, const Cube& cube, const ZonalKernel& kernel, double scale, const VerifyOptions& options) {
+LevelErrors verify_cube(const Image& radiance, const Cube& cube, const ZonalKernel& kernel, double scale,
+                        const VerifyOptions& options) {
   const double flux = map_flux(radiance) * scale, mean = flux / (4 * pi);
   const TexelChoice texels = choose_texels(cube, options);
   ErrorSum centres, bright, lookups;
   const double largest = std::max(add_texels(radiance, cube, kernel, scale, texels.anywhere, centres),
                                   add_texels(radiance, cube, kernel, scale, texels.near_brightest, bright));
   add_lookups(radiance, cube, kernel, scale, sphere_points(options.directions, options.seed), lookups);
-  return {centres.relative_rms(), largest / mean, cube_energy(cube) / flux - 1, edge_step_ratio(cube),
-          lookups.relative_rms(), lookups.largest / mean};
+  return {centres.relative_rms(), largest / mean,         cube_energy(cube) / flux - 1,
+          edge_step_ratio(cube),  lookups.relative_rms(), lookups.largest / mean};
 }
 
 // Level 0 is made of area averages, not of filtered values: what can be said of it is its energy.
@@ -112,11 +119,13 @@ LevelErrors verify_environment(const Image& radiance, const Cube& cube) {
   return errors;
 }
 
-void verify_trilinear(const IblSet& set, const Image& radiance, const IblOptions& options, const VerifyOptions& verify, IblErrors& errors) {
+void verify_trilinear(const IblSet& set, const Image& radiance, const IblOptions& options,
+                      const VerifyOptions& verify, IblErrors& errors) {
   constexpr int bands = 10;
   const int levels = static_cast<int>(set.specular.levels.size());
   if (levels < 2) return;
-  const std::vector<Vec3> directions = sphere_points(bands * std::max(4, verify.directions / 4), verify.seed + 1);
+  const std::vector<Vec3> directions =
+      sphere_points(bands * std::max(4, verify.directions / 4), verify.seed + 1);
   std::array<ErrorSum, bands> by_band;
   ErrorSum all;
   for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -125,7 +134,8 @@ void verify_trilinear(const IblSet& set, const Image& radiance, const IblOptions
     const ZonalKernel kernel = kernel_for_alpha(options.kernel, r * r);
     const auto truth = filter_brute_force(radiance, std::span(&directions[i], 1), std::span(&kernel, 1));
     float value[3];
-    look_up_cube(set.specular, directions[i], perceptual_roughness_to_level(options.law, r, levels, set.specular.size()), value);
+    look_up_cube(set.specular, directions[i],
+                 perceptual_roughness_to_level(options.law, r, levels, set.specular.size()), value);
     by_band[i * bands / directions.size()].add(value, truth.data());
     all.add(value, truth.data());
   }
@@ -177,17 +187,20 @@ double verify_dfg(const DfgTable& table, DfgForm form) {
       const double r = (j + 0.5) / table.size;
       const DfgValue exact = exact_dfg((i + 0.5) / table.size, r * r, form);
       const float* texel = &table.scale_bias[(static_cast<std::size_t>(j) * table.size + i) * 2];
-      largest = std::max({largest, std::abs(static_cast<double>(texel[0]) - exact.scale), std::abs(static_cast<double>(texel[1]) - exact.bias)});
+      largest = std::max({largest, std::abs(static_cast<double>(texel[0]) - exact.scale),
+                          std::abs(static_cast<double>(texel[1]) - exact.bias)});
     }
   return largest;
 }
 
 }  // namespace
 
-IblErrors verify_ibl(const IblSet& set, const Image& radiance, const IblOptions& options, const VerifyOptions& verify) {
+IblErrors verify_ibl(const IblSet& set, const Image& radiance, const IblOptions& options,
+                     const VerifyOptions& verify) {
   const auto start = std::chrono::steady_clock::now();
   const auto progress = [&](std::size_t done) {
-    if (verify.progress) verify.progress(static_cast<double>(done) / static_cast<double>(set.specular.levels.size() + 2));
+    if (verify.progress)
+      verify.progress(static_cast<double>(done) / static_cast<double>(set.specular.levels.size() + 2));
   };
   IblErrors errors;
   errors.levels.push_back(verify_environment(radiance, set.specular.levels.front()));

@@ -19,7 +19,8 @@ constexpr double pi = std::numbers::pi;
 
 // D(h) = alpha^2 / (pi (cos^2 h (alpha^2 - 1) + 1)^2) with h = theta/2; sin^2 h = u/2 gives the denominator
 // alpha^2 + (1 - alpha^2) u/2 without cancellation. The constant alpha^2/pi is part of the normalisation.
-WELKIN_TARGET_CLONES void evaluate_ggx(double alpha, double scale, const double* u, double* out, std::size_t count) {
+WELKIN_TARGET_CLONES void evaluate_ggx(double alpha, double scale, const double* u, double* out,
+                                       std::size_t count) {
   const double a2 = alpha * alpha, slope = 0.5 * (1 - a2);
   for (std::size_t i = 0; i < count; ++i) {
     const double denominator = a2 + slope * u[i];
@@ -95,7 +96,8 @@ ZonalKernel normalized_kernel(KernelKind kind, double parameter) {
 }  // namespace
 
 ZonalKernel make_ggx_kernel(double alpha) {
-  if (!(alpha >= 1e-4 && alpha <= 1)) throw Error(fmt::format("ggx alpha must lie in [0.0001, 1], not {}", alpha));
+  if (!(alpha >= 1e-4 && alpha <= 1))
+    throw Error(fmt::format("ggx alpha must lie in [0.0001, 1], not {}", alpha));
   return normalized_kernel(KernelKind::ggx, alpha);
 }
 
@@ -128,8 +130,10 @@ void evaluate(const ZonalKernel& kernel, std::span<const double> one_minus_cos, 
   const std::size_t count = one_minus_cos.size();
   switch (kernel.kind) {
     case KernelKind::ggx: return evaluate_ggx(kernel.parameter, kernel.normalization, u, out.data(), count);
-    case KernelKind::phong: return evaluate_phong(kernel.parameter, kernel.normalization, u, out.data(), count);
-    case KernelKind::gaussian: return evaluate_gaussian(kernel.parameter, kernel.normalization, u, out.data(), count);
+    case KernelKind::phong:
+      return evaluate_phong(kernel.parameter, kernel.normalization, u, out.data(), count);
+    case KernelKind::gaussian:
+      return evaluate_gaussian(kernel.parameter, kernel.normalization, u, out.data(), count);
     default: return evaluate_lambert(kernel.normalization, u, out.data(), count);
   }
 }
@@ -169,7 +173,8 @@ double core_share(double t) {
   return mirrored ? step : 1 - step;
 }
 
-std::vector<double> legendre_coefficients_of_rest(const ZonalKernel& kernel, double near_angle, int max_degree) {
+std::vector<double> legendre_coefficients_of_rest(const ZonalKernel& kernel, double near_angle,
+                                                  int max_degree) {
   return project(kernel, max_degree, [&](double theta) { return 1 - core_share(theta / near_angle); });
 }
 

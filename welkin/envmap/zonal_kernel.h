@@ -48,6 +48,7 @@ std::vector<double> legendre_coefficients(const ZonalKernel& kernel, int max_deg
 double core_share(double theta_over_near_angle);
 
 /// The coefficients of the rest alone (k_0 < 1); near_angle > 0.
-std::vector<double> legendre_coefficients_of_rest(const ZonalKernel& kernel, double near_angle, int max_degree);
+std::vector<double> legendre_coefficients_of_rest(const ZonalKernel& kernel, double near_angle,
+                                                  int max_degree);
 
 }  // namespace welkin

@@ -61,7 +61,6 @@ class UnfinishedFile {
   bool finished_ = false;
 };
 
-
 std::string temporary_name(const std::filesystem::path& path) {
   static std::atomic<unsigned> serial{0};
   return path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
@@ -76,7 +75,8 @@ void write_all(int file, std::span<const std::uint8_t> bytes, const std::filesys
   }
 }
 
-void fill(const UnfinishedFile& unfinished, const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+void fill(const UnfinishedFile& unfinished, const std::filesystem::path& path,
+          std::span<const std::uint8_t> bytes) {
   const int file = ::open(unfinished.path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file < 0) fail(path, "cannot write", errno);
   try {
@@ -113,7 +113,8 @@ void write_file(const std::filesystem::path& path, std::span<const std::uint8_t>
 
 void write_files(std::span<const OutputFile> files) {
   std::deque<UnfinishedFile> unfinished;
-  for (const OutputFile& file : files) fill(unfinished.emplace_back(temporary_name(file.path)), file.path, file.bytes);
+  for (const OutputFile& file : files)
+    fill(unfinished.emplace_back(temporary_name(file.path)), file.path, file.bytes);
   // Renaming onto a folder fails: found out before the first file is replaced, not at the last.
   std::error_code ignored;
   for (const OutputFile& file : files)

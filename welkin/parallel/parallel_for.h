@@ -25,7 +25,8 @@ void parallel_for(std::size_t count, std::size_t grain,
 template <class Partial, class Body>
 std::vector<Partial> parallel_partials(std::size_t count, std::size_t grain, Body&& body) {
   std::vector<Partial> partials((count + grain - 1) / grain);
-  parallel_for(count, grain, [&](std::size_t begin, std::size_t end) { body(partials[begin / grain], begin, end); });
+  parallel_for(count, grain,
+               [&](std::size_t begin, std::size_t end) { body(partials[begin / grain], begin, end); });
   return partials;
 }
 

@@ -9,8 +9,10 @@ std::array<double, 25> sh_basis_degree4(Vec3 d) {
   const double x = d.x, y = d.y, z = d.z, xx = x * x, yy = y * y, zz = z * z;
   static const double pi = std::numbers::pi;
   static const double c00 = std::sqrt(1 / (4 * pi)), c1 = std::sqrt(3 / (4 * pi));
-  static const double c2 = std::sqrt(15 / (4 * pi)), c20 = std::sqrt(5 / (16 * pi)), c22 = std::sqrt(15 / (16 * pi));
-  static const double c33 = std::sqrt(35 / (32 * pi)), c32 = std::sqrt(105 / (4 * pi)), c31 = std::sqrt(21 / (32 * pi));
+  static const double c2 = std::sqrt(15 / (4 * pi)), c20 = std::sqrt(5 / (16 * pi)),
+                      c22 = std::sqrt(15 / (16 * pi));
+  static const double c33 = std::sqrt(35 / (32 * pi)), c32 = std::sqrt(105 / (4 * pi)),
+                      c31 = std::sqrt(21 / (32 * pi));
   static const double c30 = std::sqrt(7 / (16 * pi)), c32b = std::sqrt(105 / (16 * pi));
   static const double c44 = std::sqrt(315 / (16 * pi)), c43 = std::sqrt(315 / (32 * pi)),
                       c42 = std::sqrt(45 / (16 * pi));

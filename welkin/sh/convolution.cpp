@@ -25,7 +25,8 @@ std::vector<double> cosine_lobe(int max_degree) {
 ShCoefficients convolve(const ShCoefficients& coefficients, std::span<const double> factors) {
   ShCoefficients result(coefficients.max_degree, coefficients.channels);
   for (int l = 0; l <= result.max_degree && l < static_cast<int>(factors.size()); ++l)
-    for (std::size_t i = sh_index(l, -l) * result.channels; i < sh_index(l + 1, -l - 1) * result.channels; ++i)
+    for (std::size_t i = sh_index(l, -l) * result.channels; i < sh_index(l + 1, -l - 1) * result.channels;
+         ++i)
       result.values[i] = factors[l] * coefficients.values[i];
   return result;
 }

@@ -34,8 +34,8 @@ template <class Value>
 ShCoefficients project_band_limited(int max_degree, int channels, Value&& value) {
   const QuadratureRule rule = gauss_legendre(max_degree + 1);
   const int azimuths = 2 * max_degree + 2;
-  auto partials =
-      parallel_partials<ShCoefficients>(rule.nodes.size(), 1, [&](ShCoefficients& sum, std::size_t ring, std::size_t) {
+  auto partials = parallel_partials<ShCoefficients>(
+      rule.nodes.size(), 1, [&](ShCoefficients& sum, std::size_t ring, std::size_t) {
         sum = ShCoefficients(max_degree, channels);
         std::vector<double> basis(sh_count(max_degree));
         const double z = rule.nodes[ring], r = std::sqrt(1 - z * z);
@@ -74,8 +74,8 @@ ShCoefficients project_equirect_texel_centres(const Image& radiance, int max_deg
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
           const double solid_angle = equirect_texel_solid_angle(radiance.width, radiance.height, y);
           for (int x = 0; x < radiance.width; ++x) {
-            evaluate_sh_basis(equirect_direction({(x + 0.5) / radiance.width, (y + 0.5) / radiance.height}), max_degree,
-                              basis);
+            evaluate_sh_basis(equirect_direction({(x + 0.5) / radiance.width, (y + 0.5) / radiance.height}),
+                              max_degree, basis);
             std::copy_n(radiance.at(x, y), radiance.channels, value.begin());
             accumulate(sum, basis, value.data(), solid_angle);
           }

@@ -26,7 +26,8 @@ std::vector<double> evaluate(const Spectrum& spectrum, Vec3 direction) {
       const std::complex<double>* a = &spectrum.values[spectrum.index(l, m) * spectrum.channels];
       const double even = basis[sh_index(l, m)], odd = m > 0 ? basis[sh_index(l, -m)] : 0;
       const double scale = m > 0 ? std::numbers::sqrt2 : 1;
-      for (int c = 0; c < spectrum.channels; ++c) result[c] += scale * (a[c].real() * even - a[c].imag() * odd);
+      for (int c = 0; c < spectrum.channels; ++c)
+        result[c] += scale * (a[c].real() * even - a[c].imag() * odd);
     }
   }
   return result;
@@ -38,7 +39,8 @@ std::vector<double> degree_power(const Spectrum& spectrum) {
     std::vector<double> channel_power(power.size());
     for (int m = 0; m <= spectrum.max_degree; ++m)
       for (int l = m; l <= spectrum.max_degree; ++l)
-        channel_power[l] += (m > 0 ? 2 : 1) * std::norm(spectrum.values[spectrum.index(l, m) * spectrum.channels + c]);
+        channel_power[l] +=
+            (m > 0 ? 2 : 1) * std::norm(spectrum.values[spectrum.index(l, m) * spectrum.channels + c]);
     for (std::size_t l = 0; l < power.size(); ++l) power[l] = std::max(power[l], channel_power[l]);
   }
   return power;

@@ -125,8 +125,9 @@ Spectrum analyze(const Image& equirect, const AnalysisOptions& options) {
   Spectrum spectrum(options.max_degree, equirect.channels);
   parallel_for(options.max_degree + 1, 2, [&](std::size_t begin, std::size_t end) {
     for (int m = static_cast<int>(begin); m < static_cast<int>(end); ++m)
-      legendre::analyze_order(m, rows, data,
-                              reinterpret_cast<double*>(&spectrum.values[spectrum.index(m, m) * spectrum.channels]));
+      legendre::analyze_order(
+          m, rows, data,
+          reinterpret_cast<double*>(&spectrum.values[spectrum.index(m, m) * spectrum.channels]));
   });
   return spectrum;
 }

@@ -158,7 +158,8 @@ WELKIN_INLINE void analyze_block(int m, const Recurrence& recurrence, double log
   const int last = data.max_degree - m;
   int i = skip_negligible(walk, recurrence, last);  // l - m
   const auto add = [&](const Lanes* values) {
-    add_rows<Nodes, Parts>(values, weights, by_parity[i & 1], sums + static_cast<std::size_t>(i) * Parts * lane_count);
+    add_rows<Nodes, Parts>(values, weights, by_parity[i & 1],
+                           sums + static_cast<std::size_t>(i) * Parts * lane_count);
   };
   for (; walk.scaled && i <= last; ++i) {
     Lanes values[Nodes];
@@ -208,8 +209,9 @@ WELKIN_INLINE void add_degree(const Lanes& value, const double* coefficients, La
 }
 
 template <int Parts>
-WELKIN_INLINE void synthesize_block(int m, const Recurrence& recurrence, double log_factor, const RowPairs& rows,
-                                    int block, const double* coefficients, OrderData& data) {
+WELKIN_INLINE void synthesize_block(int m, const Recurrence& recurrence, double log_factor,
+                                    const RowPairs& rows, int block, const double* coefficients,
+                                    OrderData& data) {
   Walk<1> walk;
   start(walk, m, log_factor, rows, block);
   Lanes sums[2][Parts] = {};
@@ -230,13 +232,15 @@ WELKIN_INLINE void synthesize_block(int m, const Recurrence& recurrence, double 
     add_degree<Parts>(walk.now[0], coefficients + static_cast<std::size_t>(i + 1) * Parts, sums[(i + 1) & 1]);
     if (i + 2 <= last) step(walk, recurrence.a[i + 2], recurrence.c[i + 2]);
   }
-  if (i == last && !walk.scaled) add_degree<Parts>(walk.now[0], coefficients + static_cast<std::size_t>(i) * Parts, sums[i & 1]);
+  if (i == last && !walk.scaled)
+    add_degree<Parts>(walk.now[0], coefficients + static_cast<std::size_t>(i) * Parts, sums[i & 1]);
   for (int parity = 0; parity < 2; ++parity)
     for (int part = 0; part < Parts; ++part) store(data.at(m, block, parity, part), sums[parity][part]);
 }
 
 template <int Parts>
-WELKIN_INLINE void synthesize_blocks(int m, const RowPairs& rows, const double* coefficients, OrderData& data) {
+WELKIN_INLINE void synthesize_blocks(int m, const RowPairs& rows, const double* coefficients,
+                                     OrderData& data) {
   const Recurrence recurrence = make_recurrence(m, data.max_degree);
   const double log_factor = log_start(m);
   for (int block = 0; block < rows.blocks; ++block)

@@ -41,7 +41,8 @@ struct OrderData {
 
   OrderData(int degree, int block_count, int part_count);
   double* at(int m, int block, int parity, int part) {
-    return data.data() + (((static_cast<std::size_t>(m) * blocks + block) * 2 + parity) * parts + part) * lane_count;
+    return data.data() +
+           (((static_cast<std::size_t>(m) * blocks + block) * 2 + parity) * parts + part) * lane_count;
   }
   const double* at(int m, int block, int parity, int part) const {
     return const_cast<OrderData*>(this)->at(m, block, parity, part);

@@ -84,12 +84,13 @@ SphereGrid synthesize(const Spectrum& spectrum, int rows, int columns) {
   parallel_for(spectrum.max_degree + 1, 2, [&](std::size_t begin, std::size_t end) {
     for (int m = static_cast<int>(begin); m < static_cast<int>(end); ++m)
       legendre::synthesize_order(
-          m, pairs, reinterpret_cast<const double*>(&spectrum.values[spectrum.index(m, m) * spectrum.channels]), data);
+          m, pairs,
+          reinterpret_cast<const double*>(&spectrum.values[spectrum.index(m, m) * spectrum.channels]), data);
   });
 
   SphereGrid grid{rows, columns, spectrum.channels, {}};
-  grid.values.resize(static_cast<std::size_t>(rows + 2 * SphereGrid::margin) * (columns + 2 * SphereGrid::margin) *
-                     grid.channels);
+  grid.values.resize(static_cast<std::size_t>(rows + 2 * SphereGrid::margin) *
+                     (columns + 2 * SphereGrid::margin) * grid.channels);
   std::vector<Complex> phases(spectrum.max_degree + 1);
   for (int m = 0; m <= spectrum.max_degree; ++m) {
     const double angle = std::numbers::pi * m / columns;

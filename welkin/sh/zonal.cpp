@@ -12,7 +12,8 @@ constexpr int lane_count = 16;
 using Lanes = double __attribute__((vector_size(lane_count * sizeof(double))));
 
 // Adds sum over lanes of w P_l(x) to sums[l].
-WELKIN_TARGET_CLONES void add_block(const double* cosines, const double* weights, int max_degree, double* sums) {
+WELKIN_TARGET_CLONES void add_block(const double* cosines, const double* weights, int max_degree,
+                                    double* sums) {
   Lanes x, weight, previous = {}, current;
   std::memcpy(&x, cosines, sizeof x);
   std::memcpy(&weight, weights, sizeof weight);
@@ -30,7 +31,8 @@ WELKIN_TARGET_CLONES void add_block(const double* cosines, const double* weights
 
 }  // namespace
 
-std::vector<double> project_zonal(std::span<const double> cosines, std::span<const double> weights, int max_degree) {
+std::vector<double> project_zonal(std::span<const double> cosines, std::span<const double> weights,
+                                  int max_degree) {
   assert(cosines.size() == weights.size());
   std::vector<double> sums(max_degree + 1);
   for (std::size_t first = 0; first < cosines.size(); first += lane_count) {

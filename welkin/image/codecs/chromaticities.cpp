@@ -54,9 +54,7 @@ ColourMatrix rgb_to_xyz(const Chromaticities& from) {
   return m;
 }
 
-ColourMatrix xyz_to_rec709() {
-  return inverse(rgb_to_xyz({}));
-}
+ColourMatrix xyz_to_rec709() { return inverse(rgb_to_xyz({})); }
 
 ColourMatrix rgb_to_rec709(const Chromaticities& from) {
   const Chromaticities rec709;

@@ -40,7 +40,8 @@ bool write(png_structp png, png_infop info, const ByteImage& image, std::vector<
 
 std::vector<std::uint8_t> encode_png(const ByteImage& image) {
   assert(image.width > 0 && image.height > 0 && (image.channels == 1 || image.channels == 3));
-  if (image.width > 1000000 || image.height > 1000000) throw Error("this image is too large for the PNG writer");
+  if (image.width > 1000000 || image.height > 1000000)
+    throw Error("this image is too large for the PNG writer");
   std::vector<std::uint8_t> bytes;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
