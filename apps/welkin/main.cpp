@@ -21,6 +21,10 @@ namespace {
 // Files appear by renaming, so a killed run has nothing to undo but its temporary files.
 extern "C" void stop(int signal_number) {
   welkin::remove_unfinished_files();
+  constexpr char wipe_progress[] = "\r\033[K";
+  if (::isatty(STDERR_FILENO)) {
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, wipe_progress, sizeof wipe_progress - 1);
+  }
   ::_exit(128 + signal_number);
 }
 
