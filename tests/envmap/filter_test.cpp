@@ -10,6 +10,7 @@
 #include <welkin/envmap/bright_texels.h>
 #include <welkin/envmap/brute_force.h>
 #include <welkin/envmap/filter_plan.h>
+#include <welkin/error.h>
 #include <welkin/parallel/parallel_for.h>
 #include <welkin/sphere/cube.h>
 #include <welkin/sphere/equirect.h>
@@ -81,6 +82,22 @@ TEST(Filter, EqualsBruteForceUnderAWindow) {
     for (int x = 100; x < 112; ++x)
       for (int c = 0; c < 3; ++c) map.at(x, y)[c] = 300;
   expect_within_tolerance(map, "window");
+}
+
+// More equal bright texels than are split off at first, in a small place on black: nothing may be lost.
+TEST(Filter, EqualsBruteForceUnderManyEqualTexelsOnBlack) {
+  Image map(128, 64);
+  for (int x = 0; x < 90; ++x)
+    for (int c = 0; c < 3; ++c) map.at(x, 0)[c] = 6e4f;
+  expect_within_tolerance(map, "texels at the zenith");
+}
+
+TEST(Filter, RefusesTolerancesOutOfReach) {
+  FilterOptions options;
+  for (double tolerance : {0.0, 1e-9, 1.0, -1.0}) {
+    options.tolerance = tolerance;
+    EXPECT_THROW(filter_environment(noise_map(16, 8, 1), targets(), options), Error) << tolerance;
+  }
 }
 
 // Odd sizes, and one texel at each pole.

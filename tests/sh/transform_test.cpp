@@ -54,11 +54,11 @@ Spectrum analyze_slowly(const Image& map, int degree) {
   return spectrum;
 }
 
-// Odd and even heights, widths that are no powers of two, degrees beyond what the map resolves.
+// Odd and even heights, widths that are no powers of two or have a large prime factor, degrees beyond what the map resolves.
 TEST(Analysis, EqualsTheDefinition) {
   const struct {
     int width, height, degree, channels;
-  } cases[] = {{16, 8, 12, 3}, {10, 7, 9, 1}, {12, 5, 30, 3}, {2, 1, 5, 4}, {9, 16, 6, 3}};
+  } cases[] = {{16, 8, 12, 3}, {10, 7, 9, 1}, {12, 5, 30, 3}, {2, 1, 5, 4}, {9, 16, 6, 3}, {74, 6, 9, 1}};
   for (const auto& c : cases) {
     const Image map = random_map(c.width, c.height, 7, c.channels);
     AnalysisOptions options;

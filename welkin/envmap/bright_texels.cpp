@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <numbers>
+#include <tuple>
 
 #include <welkin/parallel/parallel_for.h>
 #include <welkin/sphere/equirect.h>
@@ -55,13 +56,16 @@ BrightSplit split_bright_texels(const Image& equirect, const BrightOptions& opti
   split.threshold = options.threshold_over_mean * split.mean;
   std::vector<Candidate> bright = texels_above(equirect, split.threshold);
   if (static_cast<int>(bright.size()) > options.max_texels) {
-    // The threshold becomes the luminance of the first texel that is left out; ties stay in the map.
-    std::nth_element(bright.begin(), bright.begin() + options.max_texels, bright.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.luminance > b.luminance; });
+    // The threshold becomes the luminance of the brightest texel that is left out.
+    std::sort(bright.begin(), bright.end(), [](const Candidate& a, const Candidate& b) {
+      return std::tuple(-a.luminance, a.y, a.x) < std::tuple(-b.luminance, b.y, b.x);
+    });
     split.threshold = bright[options.max_texels].luminance;
+    bright.resize(options.max_texels);
     std::erase_if(bright, [&](const Candidate& c) { return c.luminance <= split.threshold; });
-    std::sort(bright.begin(), bright.end(),
-              [](const Candidate& a, const Candidate& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+    std::sort(bright.begin(), bright.end(), [](const Candidate& a, const Candidate& b) {
+      return std::tuple(a.y, a.x) < std::tuple(b.y, b.x);
+    });
   }
   for (const Candidate& c : bright) {
     BrightTexel texel{c.x,

@@ -97,6 +97,31 @@ void replace_near_texels(const ZonalKernel& kernel, const LookUp& at, const RowV
   }
 }
 
+// The texels of a row that the kernel's end at 90 degrees may pass through, on either side of the axis' meridian.
+void replace_texels_at_end(const ZonalKernel& kernel, const LookUp& at, const RowView& row,
+                           std::vector<double>& weights) {
+  // cos(phi - phi_axis) = -cot theta cot theta_axis on the horizon; clamped where the row does not reach it.
+  const auto away = [&](double theta) {
+    const double b = std::sin(theta) * std::sin(at.theta);
+    return std::acos(std::clamp(b > 1e-12 ? -std::cos(theta) * std::cos(at.theta) / b : 2.0, -1.0, 1.0));
+  };
+  const double a = away(row.centre - row.half), b = away(row.centre + row.half);
+  if (a == b && (a == 0 || a == pi)) return;
+  const double texel = 2 * pi / row.width;
+  const int first = static_cast<int>(std::floor(std::min(a, b) / texel)) - 1;
+  const int last = static_cast<int>(std::ceil(std::max(a, b) / texel)) + 1;
+  const int middle = static_cast<int>(std::floor((at.phi / (2 * pi) + 0.5) * row.width));
+  const auto replace = [&](int x) {
+    const int column = (x % row.width + row.width) % row.width;
+    weights[column] =
+        integrate_kernel(kernel, at.direction, equirect_patch(row.width, row.height, column, row.row));
+  };
+  for (int offset = std::max(0, first); offset <= std::min(last, row.width / 2 + 1); ++offset) {
+    replace(middle + offset);
+    replace(middle - offset);
+  }
+}
+
 // Weights of all texels of a row: the kernel integrated over each. Most texels are so far from the axis, or the kernel
 // so wide, that one or two nodes a side do.
 void row_weights(const ZonalKernel& kernel, const LookUp& at, const RowView& row, Scratch& scratch,
@@ -106,6 +131,7 @@ void row_weights(const ZonalKernel& kernel, const LookUp& at, const RowView& row
   if (singularity > one_node_distance * row.half_texel) {
     const double area = equirect_texel_solid_angle(row.width, row.height, row.row);
     add_node_row(kernel, at, row, row.centre, area, 0, scratch, weights);
+    if (kink_slope(kernel) > steep_kink) replace_texels_at_end(kernel, at, row, weights);
     return;
   }
   for (double side : {-1.0, 1.0}) {
@@ -114,6 +140,7 @@ void row_weights(const ZonalKernel& kernel, const LookUp& at, const RowView& row
     for (int column_node : {1, 2}) add_node_row(kernel, at, row, theta, area, column_node, scratch, weights);
   }
   if (singularity < two_node_distance * row.half_texel) replace_near_texels(kernel, at, row, weights);
+  if (kink_slope(kernel) > steep_kink) replace_texels_at_end(kernel, at, row, weights);
 }
 
 void filter_one(const Image& radiance, Vec3 direction, std::span<const ZonalKernel> kernels, double* out) {

@@ -8,6 +8,7 @@
 #include <welkin/envmap/bright_texels.h>
 #include <welkin/envmap/filter_direct.h>
 #include <welkin/envmap/filter_plan.h>
+#include <welkin/error.h>
 #include <welkin/parallel/parallel_for.h>
 #include <welkin/sh/transform.h>
 #include <welkin/sphere/cube.h>
@@ -50,40 +51,67 @@ Cube gather(const FilterTarget& target, const KernelPlan& plan, const SphereGrid
   return cube;
 }
 
+struct Plan {
+  BrightSplit map;
+  std::vector<KernelPlan> kernels;
+};
+
+// Few bright texels are enough for nearly every map. Where so many light up in so small a place that no degree within
+// reach can follow them, more are summed directly.
+Plan plan_filter(const Image& radiance, std::span<const FilterTarget> targets, double tolerance) {
+  Plan plan;
+  for (int most : {64, 512, 4096}) {
+    BrightOptions bright;
+    bright.max_texels = most;
+    plan.map = split_bright_texels(radiance, bright);
+    plan.kernels.assign(targets.size(), {});
+    parallel_for(targets.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        plan.kernels[i] = plan_kernel(targets[i], plan.map, tolerance);
+    });
+    const bool met = std::all_of(plan.kernels.begin(), plan.kernels.end(),
+                                 [](const KernelPlan& k) { return k.bound_met; });
+    const bool none_left = plan.map.threshold <= bright.threshold_over_mean * plan.map.mean;
+    if (met || none_left) break;
+  }
+  return plan;
+}
+
 }  // namespace
 
 std::vector<Cube> filter_environment(const Image& radiance, std::span<const FilterTarget> targets,
                                      const FilterOptions& options, FilterReport* report) {
   assert(radiance.channels == 3);
+  if (!(options.tolerance >= 1e-6 && options.tolerance <= 0.1))
+    throw Error("the filter's tolerance must lie in [1e-6, 0.1]");
   const auto progress = [&](double share) {
     if (options.progress) options.progress(share);
   };
   const Stopwatch analysis_time;
-  const BrightSplit map = split_bright_texels(radiance);
-  std::vector<KernelPlan> plans(targets.size());
-  parallel_for(targets.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) plans[i] = plan_kernel(targets[i], map, options.tolerance);
-  });
+  Plan plan = plan_filter(radiance, targets, options.tolerance);
   progress(0.05);
   AnalysisOptions analysis;
   analysis.max_degree = 1;
-  for (const KernelPlan& plan : plans)
-    analysis.max_degree = std::max(analysis.max_degree, static_cast<int>(plan.factors.size()) - 1);
-  const Spectrum spectrum = analyze(map.residual, analysis);
+  for (const KernelPlan& kernel : plan.kernels)
+    analysis.max_degree = std::max(analysis.max_degree, static_cast<int>(kernel.factors.size()) - 1);
+  const Spectrum spectrum = analyze(plan.map.residual, analysis);
   const std::vector<double> power = degree_power(spectrum);
-  FilterReport made{analysis.max_degree, static_cast<int>(map.texels.size()), analysis_time.seconds(), {}};
+  FilterReport made{
+      analysis.max_degree, static_cast<int>(plan.map.texels.size()), analysis_time.seconds(), {}};
   progress(0.4);
 
   std::vector<Cube> cubes;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const Stopwatch level_time;
-    const double largest_error = options.tolerance / 3 * targets[i].scale * map.mean;
-    const SynthesisPlan synthesis = plan_synthesis(plans[i].factors, power, largest_error);
-    plans[i].factors.resize(synthesis.degree + 1);
+    KernelPlan& kernel = plan.kernels[i];
+    const double largest_error = options.tolerance / 3 * targets[i].scale * plan.map.mean;
+    const SynthesisPlan synthesis = plan_synthesis(kernel.factors, power, largest_error);
+    kernel.factors.resize(synthesis.degree + 1);
     const SphereGrid grid =
-        synthesize(convolve(spectrum, plans[i].factors), synthesis.grid_rows, 2 * synthesis.grid_rows);
-    cubes.push_back(gather(targets[i], plans[i], grid, map));
-    made.levels.push_back({synthesis.degree, synthesis.grid_rows, plans[i].near_angle, level_time.seconds()});
+        synthesize(convolve(spectrum, kernel.factors), synthesis.grid_rows, 2 * synthesis.grid_rows);
+    cubes.push_back(gather(targets[i], kernel, grid, plan.map));
+    made.levels.push_back(
+        {synthesis.degree, synthesis.grid_rows, kernel.near_angle, level_time.seconds(), kernel.bound_met});
     progress(0.4 + 0.6 * static_cast<double>(i + 1) / static_cast<double>(targets.size()));
   }
   if (report) *report = std::move(made);

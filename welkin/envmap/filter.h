@@ -17,7 +17,8 @@ struct FilterTarget {
 };
 
 struct FilterOptions {
-  /// The largest error allowed anywhere, relative to the map's mean luminance; the relative RMS error is far below.
+  /// The largest error aimed at anywhere, relative to the map's mean luminance, 1e-6 to 0.1; the relative RMS error is
+  /// far below. An estimate decides (docs/methods.md): measured errors stay within a few times it.
   double tolerance = 3e-4;
   /// Told the share of the work done so far, in [0, 1], now and then, from the calling thread.
   std::function<void(double)> progress;
@@ -29,6 +30,8 @@ struct FilterLevelReport {
   double near_angle =
       0;  ///< rad; where the kernel was too narrow for the transform, its core was summed directly
   double seconds = 0;
+  bool bound_met =
+      true;  ///< false: the error bound asked for more than the transform can give; expect errors
 };
 
 struct FilterReport {
@@ -43,7 +46,7 @@ struct FilterReport {
 /// its kernel's Legendre coefficients (Funk-Hecke), keeps as many degrees and as fine a grid as its error bound asks
 /// for, and interpolates its texels. Where a kernel is so narrow that its spectrum would cost more, only the smooth
 /// outer part of it goes that way and the core is summed over the texels that it covers.
-/// radiance: equirectangular, 3 channels, finite and >= 0. Same bits on any number of threads.
+/// radiance: equirectangular, 3 channels, finite and >= 0. Throws Error for a tolerance out of range. Same bits on any number of threads.
 /// Measured against filter_brute_force; see docs/methods.md.
 std::vector<Cube> filter_environment(const Image& radiance, std::span<const FilterTarget> targets,
                                      const FilterOptions& options = {}, FilterReport* report = nullptr);

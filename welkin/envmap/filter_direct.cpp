@@ -51,6 +51,7 @@ BrightSum::BrightSum(std::span<const BrightTexel> texels, const ZonalKernel& ker
     const double half = half_side(patch), need = (nodes_ == 1 ? one_node_distance : two_node_distance) * half;
     const double reach = width < need ? need + 1.5 * half : 0;
     reach_squared_.push_back(reach * reach);
+    end_reach_.push_back(kink_slope(kernel) > steep_kink ? 2.2 * half : 0);
   }
 }
 
@@ -59,7 +60,7 @@ void BrightSum::add(Vec3 direction, double scale, double* rgb) {
   evaluate(kernel_, one_minus_cos_, value_);
   for (std::size_t t = 0; t < texels_.size(); ++t) {
     double integral = 0;
-    if (2 * one_minus_cos_[t] < reach_squared_[t]) {
+    if (2 * one_minus_cos_[t] < reach_squared_[t] || std::abs(1 - one_minus_cos_[t]) < end_reach_[t]) {
       integral = integrate_kernel(kernel_, direction, texels_[t].patch);
     } else {
       for (std::size_t i = t; i < value_.size(); i += texels_.size()) integral += area_[i] * value_[i];

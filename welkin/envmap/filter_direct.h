@@ -23,6 +23,8 @@ class BrightSum {
   int nodes_ = 1;                         // a texel: 1 or 4
   std::vector<double> x_, y_, z_, area_;  // [node of texel * texel count + texel]
   std::vector<double> reach_squared_;     // nearer than this (chord) the adaptive rule is needed
+  std::vector<double>
+      end_reach_;  // |cos| below which the texel may lie across the kernel's end at 90 degrees
   std::vector<double> one_minus_cos_, value_;
 };
 

@@ -8,7 +8,8 @@ namespace welkin {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int max_degree = 2400;  // beyond it a core is always cheaper
+constexpr int max_degree = 2048;  // beyond it a core is always cheaper
+constexpr double safety = 2;      // the ripple's crest lies beside the two places where it is evaluated
 constexpr double smallest_factor = 3e-5;
 
 // Error bound. Dropping degrees > L leaves out the convolution with K - K_L, a ripple of wavelength 2 pi/L. It is
@@ -29,22 +30,22 @@ int degree_within(const std::vector<double>& factors, const BrightSplit& map, do
     const double met_on_axis = std::min(flux, radiance * pi * ripple * ripple / 4 * 4);
     const double met_on_ring = std::min(flux, radiance * ripple * 2 * std::sqrt(flux / radiance));
     const double error = worst_axis * met_on_axis + worst_ring * met_on_ring;
-    if (error > tolerance * map.mean || std::abs(factors[l]) > smallest_factor) return l;
+    if (safety * error > tolerance * map.mean || std::abs(factors[l]) > smallest_factor) return l;
   }
   return 1;
 }
 
-// Coefficients to twice the degree that is needed, so that the tail is known; empty where that is out of reach.
+// Coefficients to twice the degree that is needed, so that the tail is known, cut to that degree.
 template <class Coefficients>
-std::vector<double> factors_within(Coefficients&& coefficients, const BrightSplit& map, double tolerance) {
-  for (int computed = 128; computed <= 2 * max_degree; computed *= 2) {
-    std::vector<double> factors = coefficients(computed);
-    const int degree = degree_within(factors, map, tolerance);
-    if (degree > computed / 2) continue;
-    factors.resize(degree + 1);
-    return factors;
+KernelPlan factors_within(Coefficients&& coefficients, const BrightSplit& map, double tolerance) {
+  for (int computed = 128;; computed *= 2) {
+    KernelPlan plan{coefficients(computed)};
+    const int degree = degree_within(plan.factors, map, tolerance);
+    plan.bound_met = degree <= computed / 2;
+    if (!plan.bound_met && computed < 2 * max_degree) continue;
+    plan.factors.resize(std::min(degree, computed / 2) + 1);
+    return plan;
   }
-  return {};
 }
 
 // Predicted cost in units of one multiply-add in the Legendre sums: two complex rows of three channels and the
@@ -72,26 +73,25 @@ double core_cost(const FilterTarget& target, double near_angle, int map_rows) {
 }  // namespace
 
 KernelPlan plan_kernel(const FilterTarget& target, const BrightSplit& map, double tolerance) {
-  KernelPlan plan;
   const int rows = map.residual.height;
-  plan.factors = factors_within([&](int degree) { return legendre_coefficients(target.kernel, degree); }, map,
-                                tolerance);
-  double cost = plan.factors.empty() ? INFINITY : transform_cost(static_cast<int>(plan.factors.size()), rows);
+  KernelPlan best = factors_within([&](int degree) { return legendre_coefficients(target.kernel, degree); },
+                                   map, tolerance);
+  double cost = best.bound_met ? transform_cost(static_cast<int>(best.factors.size()), rows) : INFINITY;
   const double width = angular_width(target.kernel);
   for (double near_angle = 4 * width; near_angle < 0.5 && core_cost(target, near_angle, rows) < cost;
        near_angle *= 2) {
-    std::vector<double> rest = factors_within(
+    KernelPlan split = factors_within(
         [&](int degree) { return legendre_coefficients_of_rest(target.kernel, near_angle, degree); }, map,
         tolerance);
-    if (rest.empty()) continue;
     const double split_cost =
-        core_cost(target, near_angle, rows) + transform_cost(static_cast<int>(rest.size()), rows);
-    if (split_cost >= cost) continue;
+        core_cost(target, near_angle, rows) + transform_cost(static_cast<int>(split.factors.size()), rows);
+    if (!split.bound_met || split_cost >= cost) continue;
     cost = split_cost;
-    plan = {std::move(rest), near_angle};
+    best = std::move(split);
+    best.near_angle = near_angle;
   }
-  for (double& factor : plan.factors) factor *= target.scale;
-  return plan;
+  for (double& factor : best.factors) factor *= target.scale;
+  return best;
 }
 
 // In any direction |sum over m of a_lm Y_lm| <= sqrt(power_l (2l + 1)/(4 pi)) (Cauchy-Schwarz and the addition

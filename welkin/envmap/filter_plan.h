@@ -13,6 +13,8 @@ namespace welkin {
 struct KernelPlan {
   std::vector<double> factors;  ///< k_l times the target's scale
   double near_angle = 0;        ///< rad; > 0: factors are those of the kernel without its core
+  bool bound_met =
+      true;  ///< false: no degree within reach met the error bound; factors go as far as they can
 };
 
 /// The degree beyond which a kernel's spectrum can be dropped for a map with this much light above its mean, and the

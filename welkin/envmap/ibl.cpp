@@ -40,7 +40,9 @@ int full_levels(int size) {
 
 IblOptions checked(IblOptions options) {
   check("the size", options.size, 1, 8192);
-  if (options.levels == 0) options.levels = default_levels(options.size);
+  if (options.levels == 0)
+    options.levels =
+        options.law == LevelLaw::logarithmic ? full_levels(options.size) : default_levels(options.size);
   check("the number of levels", options.levels, 1, full_levels(options.size));
   check("the irradiance size", options.irradiance_size, 1, 1024);
   check("the SH degree", options.sh_degree, 0, max_projection_degree);

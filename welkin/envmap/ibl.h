@@ -51,7 +51,8 @@ struct IblSet {
 };
 
 /// As many levels as leave the last one 4 texels wide: fewer blend lobes that are too different, more end in levels
-/// whose few texels blur the look-up. See docs/methods.md for the measured error against the number of levels.
+/// whose few texels blur the look-up. (The logarithmic law reaches roughness 1 only at the end of the full chain, so it
+/// gets that.) See docs/methods.md for the measured error against the number of levels.
 int default_levels(int size);
 
 /// Makes the set from an equirectangular map of 3 channels, finite and >= 0. Throws Error for options out of range.

@@ -22,7 +22,11 @@ int patch_nodes(double singularity_distance, double half_width);
 /// nodes a side (1e-7) do.
 inline constexpr double one_node_distance = 500, two_node_distance = 50;
 
-/// Integral of K(angle to direction) over the patch, to a relative error of about 1e-7, however narrow K is. With
+/// Kernels whose kink at 90 degrees is steeper than this (see kink_slope) are integrated piecewise across it.
+inline constexpr double steep_kink = 1e-3;
+
+/// Integral of K(angle to direction) over the patch, to a relative error of about 1e-7, however narrow K is (1e-5 where the patch
+/// lies across the kink at 90 degrees). With
 /// near_angle > 0, of the kernel's core alone (see core_share in zonal_kernel.h).
 double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SpherePatch& patch,
                         double near_angle = 0);

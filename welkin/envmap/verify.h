@@ -35,12 +35,13 @@ struct IblErrors {
   double sh_mean = 0,
          sh_max =
              0;  ///< irradiance from nine coefficients: mean and largest error over the largest irradiance
-  double dfg_max = 0;  ///< largest error of the table at texel centres against quadrature twice as fine
+  double dfg_max =
+      0;  ///< largest difference of the table from a mean over visible normals, itself good to 3e-5
   int directions = 0;  ///< how many truths were computed in all
   double seconds = 0;
 };
 
-/// Measures every output of make_ibl against the oracle. radiance and options are those the set was made from.
+/// Measures every output of make_ibl, before it is rounded to a file format, against the oracle. radiance and options are those the set was made from.
 IblErrors verify_ibl(const IblSet& set, const Image& radiance, const IblOptions& options,
                      const VerifyOptions& verify = {});
 

@@ -153,6 +153,16 @@ double angular_width(const ZonalKernel& kernel) {
   }
 }
 
+double kink_slope(const ZonalKernel& kernel) {
+  const double a2 = kernel.parameter * kernel.parameter, denominator = 0.5 * (1 + a2);
+  switch (kernel.kind) {
+    case KernelKind::ggx: return kernel.normalization / (denominator * denominator);
+    case KernelKind::phong: return kernel.parameter < 2 ? kernel.normalization : 0;
+    case KernelKind::gaussian: return 0;
+    default: return kernel.normalization;
+  }
+}
+
 std::vector<double> legendre_coefficients(const ZonalKernel& kernel, int max_degree) {
   std::vector<double> factors = project(kernel, max_degree, [](double) { return 1.0; });
   const double total = factors[0];

@@ -38,6 +38,9 @@ double evaluate(const ZonalKernel& kernel, double one_minus_cos);
 /// one (2 alpha for ggx), else its spread. Quadratures and degrees scale with it.
 double angular_width(const ZonalKernel& kernel);
 
+/// K / cos theta just above 90 degrees, where K ends with a kink; 0 for kernels that end smoothly there.
+double kink_slope(const ZonalKernel& kernel);
+
 /// k_l = 2 pi integral of K(cos t) P_l(cos t) sin t dt, l = 0 .. max_degree: what convolution with K multiplies degree l
 /// by (Funk-Hecke). k_0 = 1 exactly; error below 1e-11.
 std::vector<double> legendre_coefficients(const ZonalKernel& kernel, int max_degree);

@@ -1,5 +1,4 @@
-#include <kissfft/kissfft.hh>
-
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <complex>
@@ -7,6 +6,7 @@
 
 #include <welkin/parallel/parallel_for.h>
 #include <welkin/sampling/quadrature.h>
+#include <welkin/sh/row_fft.h>
 #include <welkin/sh/transform.h>
 #include <welkin/sh/transform_legendre.h>
 
@@ -26,7 +26,8 @@ RowLayout choose_rows(int height, const AnalysisOptions& options) {
   for (int split = 1;; ++split) {
     const double kappa = options.max_degree * std::numbers::pi / (2.0 * height * split);
     for (int nodes = 2; nodes <= 4; ++nodes)
-      if (gauss_legendre_error(nodes, kappa) <= options.accuracy) return {split, height * split, nodes};
+      if (gauss_legendre_error(nodes, kappa) <= std::max(options.accuracy, 1e-15))
+        return {split, height * split, nodes};
   }
 }
 
@@ -85,7 +86,7 @@ class RowPairFft {
   }
 
  private:
-  kissfft<double> fft_;
+  RowFft fft_;
   std::vector<Complex> in_, out_;
 };
 

@@ -1,5 +1,3 @@
-#include <kissfft/kissfft.hh>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include <welkin/parallel/parallel_for.h>
+#include <welkin/sh/row_fft.h>
 #include <welkin/sh/transform.h>
 #include <welkin/sh/transform_legendre.h>
 #include <welkin/sphere/equirect.h>
@@ -97,7 +96,7 @@ SphereGrid synthesize(const Spectrum& spectrum, int rows, int columns) {
     phases[m] = (m % 2 ? -1.0 : 1.0) * Complex(std::cos(angle), std::sin(angle));
   }
   parallel_for(pairs.blocks, 2, [&](std::size_t begin, std::size_t end) {
-    const kissfft<double> fft(columns, true);
+    RowFft fft(columns, true);
     std::vector<Complex> z(static_cast<std::size_t>(columns) * lane_count), values(columns);
     for (int block = static_cast<int>(begin); block < static_cast<int>(end); ++block) {
       for (int c = 0; c < grid.channels; ++c) {
