@@ -1,5 +1,7 @@
 #include <welkin/image/codecs/ktx2.h>
 
+#include <sys/resource.h>
+
 #include <cstring>
 #include <random>
 #include <string>
@@ -144,6 +146,57 @@ TEST(Ktx2Damage, ZstdOfAnotherSize) {
 TEST(Ktx2Damage, ZstdBombIsRefusedByItsSize) {
   const Bytes bytes = small_cube(3);
   expect_refused(with32(with32(bytes, 20, 16384), 24, 16384), "cannot hold");
+}
+
+// The largest memory that this process has had, in bytes.
+long peak_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * 1024;
+}
+
+// A file whose one level of size x size half floats is this Zstandard frame.
+Bytes with_frame(std::uint32_t size, const Bytes& frame) {
+  Bytes bytes = with32(with32(small_image(3), 20, size), 24, size);
+  bytes = with64(with64(bytes, 80, bytes.size()), 88, frame.size());
+  bytes = with64(bytes, 96, std::uint64_t{size} * size * 8);
+  bytes.insert(bytes.end(), frame.begin(), frame.end());
+  return bytes;
+}
+
+Bytes streamed_frame(const Bytes& plain) {  // does not say its size
+  ZSTD_CStream* stream = ZSTD_createCStream();
+  Bytes frame(ZSTD_compressBound(plain.size()));
+  ZSTD_inBuffer in{plain.data(), plain.size(), 0};
+  ZSTD_outBuffer out{frame.data(), frame.size(), 0};
+  ZSTD_compressStream2(stream, &out, &in, ZSTD_e_flush);
+  ZSTD_compressStream2(stream, &out, &in, ZSTD_e_end);
+  ZSTD_freeCStream(stream);
+  frame.resize(out.pos);
+  return frame;
+}
+
+// 128 MiB are claimed, which 8 KiB of Zstandard could hold: what the frame says is looked at before memory is taken.
+TEST(Ktx2Damage, ZstdFrameThatHoldsLessThanTheHeaderClaimsTakesNoMemory) {
+  Bytes noise(8192);
+  std::mt19937 random(7);
+  for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(random());
+  Bytes sized(ZSTD_compressBound(noise.size()));
+  sized.resize(ZSTD_compress(sized.data(), sized.size(), noise.data(), noise.size(), 3));
+  const long before = peak_memory();
+  expect_refused(with_frame(4096, sized), "decompressed to 134217728 bytes");
+  expect_refused(with_frame(4096, streamed_frame(noise)), "decompressed to 134217728 bytes");
+  EXPECT_LT(peak_memory() - before, 32 << 20);  // a quarter of the claim; the files themselves are small
+}
+
+// Streams without a size are read as long as what is claimed is believable: up to 1000 times their bytes.
+TEST(Ktx2Damage, ZstdFrameWithoutItsSizeIsRead) {
+  Bytes plain(64 * 64 * 8);
+  std::mt19937 random(8);
+  for (std::size_t i = 0; i < plain.size(); i += 64) plain[i] = static_cast<std::uint8_t>(random() % 60);
+  const Bytes frame = streamed_frame(plain);
+  ASSERT_EQ(ZSTD_getFrameContentSize(frame.data(), frame.size()), ZSTD_CONTENTSIZE_UNKNOWN);
+  EXPECT_EQ(refusal(with_frame(64, frame), decode), "(accepted)");
 }
 
 TEST(Ktx2Damage, BadKeys) {
