@@ -73,6 +73,18 @@ TEST_F(Load, OtherExtensionsAreRefusedAndWriteNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("a.tga")));
 }
 
+// What an earlier process of the same number left behind is neither in the way nor ours to remove.
+TEST_F(Load, StaleTemporaryFilesAreLeftAlone) {
+  const std::string stem = path("a.hdr").string() + ".part-" + std::to_string(::getpid()) + "-";
+  for (int serial = 0; serial < 100; ++serial) std::ofstream(stem + std::to_string(serial)) << "not ours";
+  write_file(path("a.hdr"), std::string("ours"));
+  const std::vector<OutputFile> set{{path("a.hdr"), {1, 2}}, {path("b.hdr"), {3}}};
+  write_files(set);
+  EXPECT_EQ(std::filesystem::file_size(path("a.hdr")), 2u);
+  const auto count = std::distance(std::filesystem::directory_iterator(path("")), {});
+  EXPECT_EQ(count, 100 + 2);
+}
+
 TEST(DecodeImage, TakesCubesToo) {
   const std::string ktx2("\xabKTX 20\xbb\r\n\x1a\n", 12), dds("DDS ");
   for (const std::string& magic : {ktx2, dds}) {

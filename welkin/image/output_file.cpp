@@ -10,6 +10,7 @@
 #include <cstring>
 #include <deque>
 #include <fstream>
+#include <utility>
 
 #include <welkin/error.h>
 
@@ -30,18 +31,22 @@ std::array<Slot, slot_count> slots;
   throw Error(path.string(), std::string(what) + ": " + std::strerror(error_number));
 }
 
+// A temporary file beside `path`, open for writing under a name that nothing had. What is left under that name goes
+// with this object unless it was renamed.
 class UnfinishedFile {
  public:
-  explicit UnfinishedFile(const std::string& path) : path_(path) {
+  explicit UnfinishedFile(const std::filesystem::path& path) {
+    create(path);
     for (Slot& slot : slots) {
-      if (path.size() >= sizeof slot.path || slot.claimed.exchange(true)) continue;
-      std::memcpy(slot.path, path.c_str(), path.size() + 1);
+      if (path_.size() >= sizeof slot.path || slot.claimed.exchange(true)) continue;
+      std::memcpy(slot.path, path_.c_str(), path_.size() + 1);
       slot.active = true;
       slot_ = &slot;
       return;
     }
   }
   ~UnfinishedFile() {
+    if (file_ >= 0) ::close(file_);
     if (!finished_) ::unlink(path_.c_str());
     if (!slot_) return;
     slot_->active = false;
@@ -49,22 +54,28 @@ class UnfinishedFile {
   }
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
-  const std::string& path() const { return path_; }
+  int file() const { return file_; }
+  int close() { return ::close(std::exchange(file_, -1)); }
   void rename_to(const std::filesystem::path& path) {
     if (::rename(path_.c_str(), path.c_str()) != 0) fail(path, "cannot write", errno);
     finished_ = true;
   }
 
  private:
+  // An earlier process of the same number may have left names behind: not ours, so the next serial is taken.
+  void create(const std::filesystem::path& path) {
+    static std::atomic<unsigned> serial{0};
+    do {
+      path_ = path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
+      file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (file_ < 0 && errno == EEXIST);
+    if (file_ < 0) fail(path, "cannot write", errno);
+  }
   std::string path_;
+  int file_ = -1;
   Slot* slot_ = nullptr;
   bool finished_ = false;
 };
-
-std::string temporary_name(const std::filesystem::path& path) {
-  static std::atomic<unsigned> serial{0};
-  return path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
-}
 
 void write_all(int file, std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
   while (!bytes.empty()) {
@@ -75,17 +86,10 @@ void write_all(int file, std::span<const std::uint8_t> bytes, const std::filesys
   }
 }
 
-void fill(const UnfinishedFile& unfinished, const std::filesystem::path& path,
+void fill(UnfinishedFile& unfinished, const std::filesystem::path& path,
           std::span<const std::uint8_t> bytes) {
-  const int file = ::open(unfinished.path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0) fail(path, "cannot write", errno);
-  try {
-    write_all(file, bytes, path);
-  } catch (...) {
-    ::close(file);
-    throw;
-  }
-  if (::close(file) != 0) fail(path, "cannot write", errno);
+  write_all(unfinished.file(), bytes, path);
+  if (unfinished.close() != 0) fail(path, "cannot write", errno);
 }
 
 }  // namespace
@@ -106,15 +110,14 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-  UnfinishedFile unfinished(temporary_name(path));
+  UnfinishedFile unfinished(path);
   fill(unfinished, path, bytes);
   unfinished.rename_to(path);
 }
 
 void write_files(std::span<const OutputFile> files) {
   std::deque<UnfinishedFile> unfinished;
-  for (const OutputFile& file : files)
-    fill(unfinished.emplace_back(temporary_name(file.path)), file.path, file.bytes);
+  for (const OutputFile& file : files) fill(unfinished.emplace_back(file.path), file.path, file.bytes);
   // Renaming onto a folder fails: found out before the first file is replaced, not at the last.
   std::error_code ignored;
   for (const OutputFile& file : files)
