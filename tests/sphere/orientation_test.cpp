@@ -92,5 +92,14 @@ TEST(Orientation, AnyRotationKeepsEnergyAndOthersAreRefused) {
   EXPECT_THROW(oriented(map, {{Vec3{2, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}}), Error);
 }
 
+TEST(Orientation, NumbersThatAreNoAngleAreRefused) {
+  const SphereMap map = noise(map_shape(Mapping::equirectangular, 4));
+  for (const double degrees : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    EXPECT_THROW(rotation_about_y(degrees), Error);
+    EXPECT_THROW(rotated_about_y(map, degrees), Error);
+  }
+  EXPECT_THROW(oriented(map, {{Vec3{std::nan(""), 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}}), Error);
+}
+
 }  // namespace
 }  // namespace welkin

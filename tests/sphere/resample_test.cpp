@@ -288,6 +288,15 @@ TEST(Resample, RefusesWhatItCannotDo) {
   EXPECT_THROW(resample(SphereMap{}, map_shape(Mapping::cube, 4)), Error);
   EXPECT_THROW(equirect_to_cube(Image(4, 2, 5), 4), Error);
   EXPECT_THROW(equirect_to_cube(Image(4, 2), 0), Error);
+  for (const double x : {2.0, 0.0, std::nan(""), HUGE_VAL}) {
+    ResampleOptions options;
+    options.orientation.rows[0].x = x;
+    EXPECT_THROW(equirect_to_cube(Image(4, 2), 4, options), Error) << x;
+    EXPECT_THROW(cube_to_equirect(Cube(4), 8, 4, options), Error) << x;
+    EXPECT_THROW(resample({Mapping::equirectangular, Image(4, 2)}, map_shape(Mapping::cube, 4), options),
+                 Error)
+        << x;
+  }
 }
 
 }  // namespace

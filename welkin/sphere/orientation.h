@@ -7,7 +7,7 @@
 namespace welkin {
 
 /// Rotation about +Y by the right-hand rule, counter-clockwise seen from above: +X goes to -Z at 90 degrees. An
-/// equirectangular picture moves to the left by degrees / 360 of its width.
+/// equirectangular picture moves to the left by degrees / 360 of its width. Throws Error when degrees is not finite.
 Mat3 rotation_about_y(double degrees);
 
 /// Reflection z -> -z.
@@ -18,7 +18,8 @@ Mat3 mirror_matrix();
 SphereMap oriented(const SphereMap& map, const Mat3& orientation);
 
 /// oriented() by rotation_about_y, but texels are only moved, bit for bit, where the turn takes the grid to itself:
-/// an equirectangular map by a whole number of texels, a cube or an octahedral map by quarter turns.
+/// an equirectangular map by a whole number of texels, a cube or an octahedral map by quarter turns. Throws Error when
+/// degrees is not finite.
 SphereMap rotated_about_y(const SphereMap& map, double degrees);
 
 /// Left and right exchanged, as in a mirror that stands along the X axis: z -> -z. An equirectangular picture is

@@ -139,9 +139,20 @@ void put_energy_back(const std::vector<double>& wanted, SphereMap& map, bool app
   });
 }
 
+void check_orthogonal(const Mat3& orientation) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double product = dot(orientation.rows[i], orientation.rows[j]);
+      if (!(std::abs(product - (i == j ? 1 : 0)) < 1e-6))  // also where it is NaN
+        throw Error("the orientation matrix is not orthogonal");
+    }
+  }
+}
+
 SphereMap resample(MapSource source, MapShape target, const ResampleOptions& options,
                    ResampleReport* report) {
   check_map_shape(source.shape);
+  check_orthogonal(options.orientation);
   source.row_skew = row_skews(source.shape);
   if (source.channels < 1 || source.channels > 4)
     throw Error("only maps of 1 to 4 channels can be resampled");

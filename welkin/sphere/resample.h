@@ -23,7 +23,7 @@ struct ResampleOptions {
   /// Scale each channel so that the integral over the sphere is that of the source (to float rounding).
   bool keep_energy = true;
   /// Turns (or mirrors) the environment on the way: what the source shows in direction d the result shows in
-  /// orientation * d. Must be orthogonal; see orientation.h.
+  /// orientation * d. Must be orthogonal to 1e-6; see orientation.h.
   Mat3 orientation;
 };
 
@@ -38,7 +38,7 @@ struct ResampleReport {
 std::vector<double> map_energy(const SphereMap& map);
 
 /// `source` in another shape. Throws Error when either shape is not valid (check_map_shape) or the source has more
-/// than 4 channels. The same bytes on any number of threads.
+/// than 4 channels, or the orientation is not orthogonal (NaN and infinity included). The same bytes on any number of threads.
 SphereMap resample(const SphereMap& source, MapShape target, const ResampleOptions& options = {},
                    ResampleReport* report = nullptr);
 
