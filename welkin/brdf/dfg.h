@@ -5,7 +5,7 @@
 // constant environment of radiance 1 reflects towards the viewer, with height-correlated Smith shadowing and
 // Schlick's Fresnel term with f90 = 1,
 //   integral of f(view, light) cos_light over the hemisphere of lights = F0 * scale + bias,
-// and the light that single scattering loses. Computed by quadrature, not by sampling: dfg() is within 1e-5
+// and the light that single scattering loses. Computed by quadrature, not by sampling: integrate_dfg() is within 1e-5
 // of the integral for every cos_view in [0, 1] and alpha in [1e-6, 1].
 
 namespace welkin {

@@ -64,8 +64,8 @@ CubeMips build_mips(Cube cube, int levels) {
   CubeMips mips;
   int size = cube.size;
   mips.levels.push_back(std::move(cube));
-  while ((levels <= 0 && size > 1) || static_cast<int>(mips.levels.size()) < levels) {
-    size = std::max(1, size / 2);
+  while (size > 1 && (levels <= 0 || static_cast<int>(mips.levels.size()) < levels)) {
+    size /= 2;
     const Cube& fine = mips.levels.back();
     Cube coarse(size, fine.channels);
     parallel_for(static_cast<std::size_t>(size), 4, [&](std::size_t begin, std::size_t end) {
