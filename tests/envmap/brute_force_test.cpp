@@ -26,7 +26,7 @@ TEST(BruteForce, LeavesAConstantAsItIs) {
   std::vector<Vec3> directions = sphere_points(10);
   directions.insert(directions.end(), {{0, 1, 0}, {0, -1, 0}, {-1, 0, 0}, {1, 0, 0}});
   for (double value : filter_brute_force(map, directions, kernels()))
-    EXPECT_NEAR(value, 3, 1e-5);  // patches across the end of the kernel
+    EXPECT_NEAR(value, 3, 1e-4);  // 3e-5 relative: the kink at 90 degrees on texels of 0.07 rad
 }
 
 // One lit texel: the answer is its radiance times the kernel's integral over it, whatever the rest of the sum does.
