@@ -169,5 +169,38 @@ TEST(SkySpec, NamesWhatIsWrongAndWhatIsValid) {
   EXPECT_NE(message_of("sky:day,studio").find("not of the form key=value"), std::string::npos);
 }
 
+// Mean radiance over the sphere, one channel.
+double mean_green(const Image& map) {
+  double sum = 0;
+  for (int j = 0; j < map.height; ++j)
+    for (int i = 0; i < map.width; ++i)
+      sum += equirect_texel_solid_angle(map.width, map.height, j) * static_cast<double>(map.at(i, j)[1]);
+  return sum / (4 * pi);
+}
+
+// Texels are means: the mean of all of them is that of the sphere, however wide or narrow they are.
+TEST(AllSkies, TheMeanDoesNotDependOnTheProportion) {
+  for (const std::string kind : {"day,sun=0", "studio"}) {
+    const double wide = mean_green(make_sky(parse_sky("sky:" + kind + ",size=2048x1024")));
+    for (const char* size : {"1x1024", "2x512", "2048x64"}) {
+      const double mean = mean_green(make_sky(parse_sky("sky:" + kind + ",size=" + size)));
+      // The studio's soft boxes have edges that the nodes resolve to about a tenth of a per cent.
+      EXPECT_NEAR(mean, wide, 1e-3 * wide) << kind << " " << size;
+    }
+  }
+}
+
+// Beyond 1e30 what is made of a map, its irradiance at last, leaves float.
+TEST(AllSkies, NumbersBeyond1e30AreRefusedByName) {
+  EXPECT_NE(message_of("sky:constant,value=1e300,size=4x2").find("value must be"), std::string::npos);
+  EXPECT_NE(message_of("sky:constant,value=3e38,size=4x2").find("value must be"), std::string::npos);
+  EXPECT_NE(message_of("sky:ramp,value=1:-2e30:1,size=4x2").find("value must be"), std::string::npos);
+  EXPECT_NE(message_of("sky:studio,scale=1e31,size=4x2").find("scale must be"), std::string::npos);
+  EXPECT_NE(message_of("sky:ramp,offset=1e31,size=4x2").find("offset and slope must be"), std::string::npos);
+  EXPECT_NE(message_of("sky:constant,value=1e20,scale=1e20,size=4x2").find("value times scale"),
+            std::string::npos);
+  EXPECT_EQ(message_of("sky:constant,value=1e30,size=4x2"), "");
+}
+
 }  // namespace
 }  // namespace welkin

@@ -19,6 +19,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+// Irradiance, and what filters and coefficients make of a map, must not leave float (3.4e38).
+constexpr double largest_value = 1e30;
+
 void require(bool valid, const char* what) {
   if (!valid) throw Error(std::string("sky: ") + what);
 }
@@ -31,9 +34,18 @@ void check(const SkyOptions& o) {
   require(std::isfinite(o.azimuth), "azimuth must be finite");
   require(o.turbidity >= 1.7 && o.turbidity <= 10, "turbidity must be 1.7 to 10");
   require(o.albedo >= 0 && o.albedo <= 1, "albedo must be 0 to 1");
-  for (double v : o.value) require(std::isfinite(v), "value must be finite");
-  require(std::isfinite(o.offset) && std::isfinite(o.slope), "offset and slope must be finite");
-  require(std::isfinite(o.scale) && o.scale > 0, "scale must be above 0");
+  double largest = 0;
+  for (double v : o.value) {
+    require(std::abs(v) <= largest_value, "value must be at most 1e30");
+    largest = std::max(largest, std::abs(v));
+  }
+  require(std::abs(o.offset) <= largest_value && std::abs(o.slope) <= largest_value,
+          "offset and slope must be at most 1e30");
+  require(o.scale > 0 && o.scale <= largest_value, "scale must be above 0 and at most 1e30");
+  require(largest * o.scale <= largest_value, "value times scale must be at most 1e30");
+  const bool moved = o.kind == SkyKind::ramp || o.kind == SkyKind::sh;
+  require(!moved || largest * o.scale * std::max(std::abs(o.offset), std::abs(o.slope)) <= largest_value,
+          "offset and slope times value and scale must be at most 1e30");
   require(o.kind != SkyKind::texel || (o.x < o.width && o.x >= -1), "x must be -1 (middle) to width - 1");
   require(o.kind != SkyKind::texel || (o.y < o.height && o.y >= -1), "y must be -1 (middle) to height - 1");
   require(o.degree >= 0 && o.degree <= 100, "degree must be 0 to 100");
@@ -84,7 +96,8 @@ void fill_texel(const SkyOptions& options, Image& image) {
 }
 
 void fill_sh(const SkyOptions& options, Image& image) {
-  // A texel sees at most degree / height of a half wave: two nodes more than that is exact to rounding.
+  // A texel sees at most degree / height of a half wave: two nodes more than that is exact to rounding. Around, the 512
+  // nodes of a turn are as many for narrower ones.
   const int nodes = 3 + 2 * options.degree / options.height;
   average_over_texels(image, {256, std::min(nodes, 64)}, [&options](double) {
     return [&options, basis = std::vector<double>(sh_count(options.degree))](Vec3 direction) mutable {

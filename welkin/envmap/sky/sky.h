@@ -33,7 +33,7 @@ struct SkyOptions {
   double albedo = 0.2;    // of the ground, 0 to 1
   bool sun = true;        // false leaves the disc out of the map (the ground stays lit by it); day only
 
-  // constant, texel, ramp, sh
+  // constant, texel, ramp, sh; at most 1e30 in size, times each other and scale too, so that irradiance fits float
   Rgb value{1, 1, 1};
   int x = -1, y = -1;  // texel; -1 is the middle
   double offset = 1;   // ramp, sh
@@ -41,7 +41,7 @@ struct SkyOptions {
   int degree = 2;      // sh, 0 to 100
   int order = 0;       // sh, -degree to degree
 
-  double scale = 1;  // multiplies everything, of every kind
+  double scale = 1;  // multiplies everything, of every kind; above 0, at most 1e30
 };
 
 /// Makes the map, 3 channels. Values may be negative for ramp and sh, if the options say so.

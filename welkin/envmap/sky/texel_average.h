@@ -14,7 +14,8 @@ namespace welkin {
 
 /// How finely average_over_texels looks into a texel.
 struct TexelAverageOptions {
-  /// Nodes across the whole height at least, so that small maps average as well as large ones.
+  /// Nodes across the whole height at least, and twice as many around, so that small maps average as well as large
+  /// ones, whatever their proportion; at most 64 down a texel.
   int nodes_per_height = 1024;
   int nodes_per_texel = 1;  // at least, along each axis
 };
@@ -27,22 +28,26 @@ void average_over_texels(Image& image, const TexelAverageOptions& options, RowFu
   constexpr double pi = std::numbers::pi;
   const int wanted = (options.nodes_per_height + image.height - 1) / image.height;
   const QuadratureRule rule = gauss_legendre(std::clamp(wanted, options.nodes_per_texel, 64));
-  const int nodes = static_cast<int>(rule.nodes.size());
+  const int heights = static_cast<int>(rule.nodes.size());
+  // A turn is twice as long as the height: a column of a narrow map needs many more nodes across than down.
+  const int wanted_across = (2 * options.nodes_per_height + image.width - 1) / image.width;
+  const QuadratureRule across_rule = gauss_legendre(std::max(wanted_across, options.nodes_per_texel));
+  const int nodes = static_cast<int>(across_rule.nodes.size());
   std::vector<Vec3> azimuths(static_cast<std::size_t>(image.width) * nodes);
   for (int x = 0; x < image.width; ++x)
     for (int i = 0; i < nodes; ++i) {
-      const double phi = 2 * pi * ((x + (1 + rule.nodes[i]) / 2) / image.width - 0.5);
+      const double phi = 2 * pi * ((x + (1 + across_rule.nodes[i]) / 2) / image.width - 0.5);
       azimuths[static_cast<std::size_t>(x) * nodes + i] = {std::cos(phi), 0, std::sin(phi)};
     }
   const auto add_band = [&](double low, double high, double share, std::vector<Rgb>& row) {
-    for (int k = 0; k < nodes; ++k) {
+    for (int k = 0; k < heights; ++k) {
       const double y = low + (high - low) * (1 + rule.nodes[k]) / 2;
       const double across = std::sqrt(std::max(0.0, (1 - y) * (1 + y)));
       auto at = row_function(y);
       for (int x = 0; x < image.width; ++x)
         for (int i = 0; i < nodes; ++i) {
           const Vec3 azimuth = azimuths[static_cast<std::size_t>(x) * nodes + i];
-          const double weight = share * rule.weights[k] * rule.weights[i] / 4;
+          const double weight = share * rule.weights[k] * across_rule.weights[i] / 4;
           row[x] = row[x] + weight * at(Vec3{across * azimuth.x, y, across * azimuth.z});
         }
     }
