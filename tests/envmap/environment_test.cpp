@@ -92,6 +92,26 @@ TEST_F(EnvironmentFiles, NamesWhatIsWrong) {
   EXPECT_NE(error_of(save("wide.hdr", constant_map(16, 8, 1)), ball).find("wide.hdr"), std::string::npos);
 }
 
+// The sky's own values are refused by its parser; a file's by the largest of them.
+TEST_F(EnvironmentFiles, ValuesWhoseIrradianceLeavesFloatAreRefused) {
+  Image map = constant_map(16, 8, 1);
+  map.pixels[10] = 2e30f;
+  const std::string message = error_of(save("bright.exr", map));
+  EXPECT_NE(message.find("bright.exr: holds values up to 2e+30; scale it below 1e30"), std::string::npos)
+      << message;
+}
+
+TEST_F(EnvironmentFiles, EveryErrorNamesTheInput) {
+  const std::string path = save("fine.hdr", constant_map(16, 8, 1));
+  EnvironmentOptions turned;
+  for (const double degrees : {std::nan(""), HUGE_VAL}) {
+    turned.rotate_degrees = degrees;
+    EXPECT_TRUE(error_of(path, turned).starts_with(path + ": ")) << error_of(path, turned);
+  }
+  for (const std::string sky : {"sky:nonsense", "sky:day,size=4", "sky:day,elevation=100"})
+    EXPECT_TRUE(error_of(sky).starts_with(sky + ": ")) << error_of(sky);
+}
+
 // What is at +X comes to -Z when the environment is turned by 90 degrees about +Y (right-handed).
 TEST_F(EnvironmentFiles, RotatesAboutTheVertical) {
   Image map = constant_map(64, 32, 0);

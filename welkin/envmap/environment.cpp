@@ -62,9 +62,8 @@ MapShape equirect_shape(const MapShape& shape) {
   return map_shape(Mapping::equirectangular, std::max(1, 2 * across));
 }
 
-}  // namespace
-
-Environment load_environment(std::string_view input, const EnvironmentOptions& options) {
+// Errors of the readers name the input already, those of skies, rotations and layouts do not.
+Environment load_unnamed(std::string_view input, const EnvironmentOptions& options) {
   Environment environment;
   environment.source = std::string(input);
   SphereMap map = read_map(input, options, environment);
@@ -80,11 +79,26 @@ Environment load_environment(std::string_view input, const EnvironmentOptions& o
   environment.smallest = *smallest;
   environment.largest = *largest;
   if (environment.largest <= 0) throw Error(input, "is black all over");
+  // Irradiance, and what filters make of the map, must not leave float.
+  if (environment.largest > 1e30f)
+    throw Error(input, fmt::format("holds values up to {:.3g}; scale it below 1e30",
+                                   static_cast<double>(environment.largest)));
   if (options.mirror) map = mirrored(map);
   if (std::fmod(options.rotate_degrees, 360.0) != 0) map = rotated_about_y(map, options.rotate_degrees);
   if (map.mapping != Mapping::equirectangular) map = resample(map, equirect_shape(map.shape()));
   environment.radiance = std::move(map.image);
   return environment;
+}
+
+}  // namespace
+
+Environment load_environment(std::string_view input, const EnvironmentOptions& options) {
+  try {
+    return load_unnamed(input, options);
+  } catch (const Error& error) {
+    if (!error.path().empty()) throw;
+    throw Error(input, error.what());
+  }
 }
 
 }  // namespace welkin

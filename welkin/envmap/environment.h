@@ -33,7 +33,8 @@ struct Environment {
 
 /// Loads a file (see load_image) or makes a sky ("sky:..." as parse_sky reads it), as an equirectangular map: cubes and
 /// the other mappings are resampled. Throws Error naming the input when it cannot be read, when its proportions fit no
-/// mapping and none was given, when it has faults and they are refused, and when it is black all over.
+/// mapping and none was given, when it has faults and they are refused, when it is black all over, when it
+/// holds values above 1e30, and when the rotation is not finite.
 Environment load_environment(std::string_view input, const EnvironmentOptions& options = {});
 
 }  // namespace welkin
