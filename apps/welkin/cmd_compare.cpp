@@ -18,6 +18,7 @@
 #include <welkin/sphere/equirect.h>
 
 #include "commands.h"
+#include "json_text.h"
 
 // welkin compare A B: how far A is from B, the reference; cubes level by level and face by face.
 
@@ -129,7 +130,7 @@ void print_json(const CompareCommand& command, const std::vector<Part>& parts, b
                               {"weights", command.solid_angle ? "solid angle" : "equal"},
                               {"parts", nlohmann::ordered_json::array()}};
   for (const Part& part : parts) json["parts"].push_back(part_json(part, cube));
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(json));
 }
 
 std::string part_name(const Part& part, bool cube) {

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <bit>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -12,11 +15,14 @@
 #include "ibl_manifest.h"
 #include "ibl_preview.h"
 #include "ibl_report.h"
+#include "json_text.h"
 #include "progress.h"
 #include "sh_json.h"
+#include "source_name.h"
 
 #include <welkin/envmap/ibl.h>
 #include <welkin/envmap/verify.h>
+#include <welkin/error.h>
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/output_file.h>
 
@@ -72,8 +78,9 @@ void print_errors(const IblErrors& e) {
       "nine coefficients    irradiance off by {:.2f} % on average, {:.2f} % at most, of the largest "
       "irradiance\n",
       100 * e.sh_mean, 100 * e.sh_max);
-  fmt::print("trilinear look-up    relative RMS {:.2e} over random directions and roughnesses\n",
-             e.trilinear_relative_rms);
+  if (!e.trilinear_by_roughness.empty())
+    fmt::print("trilinear look-up    relative RMS {:.2e} over random directions and roughnesses\n",
+               e.trilinear_relative_rms);
   fmt::print("DFG table            largest error {:.1e} at texel centres\n", e.dfg_max);
   fmt::print("measured against brute force in double precision, {} directions, {:.1f} s\n", e.directions,
              e.seconds);
@@ -128,10 +135,26 @@ void write_set(const std::filesystem::path& directory, std::vector<IblFile>& fil
                  bytes_of(sh_json_text(sh_to_json(set.radiance_sh, ShQuantity::radiance, source)))});
   out.push_back({directory / "preview.png", encode_png(make_preview(set))});
   out.push_back({directory / "index.html", bytes_of(make_report_html(manifest))});
-  out.push_back({directory / "manifest.json", bytes_of(manifest.dump(2) + "\n")});
+  out.push_back({directory / "manifest.json", bytes_of(json_text(manifest) + "\n")});
   NewFolder folder(directory);
   write_files(out);
   folder.keep();
+}
+
+// The set's folder, or the nearest that exists above it, must be one that can be written to.
+void check_folder(const std::string& output) {
+  std::error_code error;
+  std::filesystem::path nearest = std::filesystem::absolute(output).lexically_normal();
+  const bool there = std::filesystem::exists(nearest, error);
+  if (there && !std::filesystem::is_directory(nearest, error))
+    throw Error(output, "is a file; the set needs a folder");
+  while (!std::filesystem::exists(nearest, error) && nearest.has_relative_path())
+    nearest = nearest.parent_path();
+  if (!std::filesystem::is_directory(nearest, error))
+    throw Error(output, "cannot make this folder: " + nearest.string() + " is a file");
+  if (::access(nearest.c_str(), W_OK | X_OK) != 0)
+    throw Error(output, std::string(there ? "cannot write to" : "cannot make") +
+                            " this folder: " + std::strerror(errno));
 }
 
 // What would fail only after all the work.
@@ -143,9 +166,7 @@ void check(const IblCommand& command) {
   if (command.options.levels > most)
     throw CLI::ValidationError("--levels",
                                fmt::format("a cube of {} has {} levels at most", command.options.size, most));
-  std::error_code error;
-  if (std::filesystem::exists(command.output, error) && !std::filesystem::is_directory(command.output, error))
-    throw Error(command.output, "is a file; the set needs a folder");
+  check_folder(command.output);
 }
 
 void run(IblCommand command) {
@@ -187,9 +208,9 @@ void run(IblCommand command) {
                                 load_seconds,
                                 seconds()};
   const nlohmann::ordered_json manifest = make_manifest(described);
-  write_set(command.output, files, manifest, set, environment.source);
+  write_set(command.output, files, manifest, set, source_name(environment.source));
   if (command.json) {
-    fmt::print("{}\n", manifest.dump(2));
+    fmt::print("{}\n", json_text(manifest));
     return;
   }
   print_levels(set, errors);

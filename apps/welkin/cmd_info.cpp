@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "environment_options.h"
+#include "json_text.h"
 
 #include <welkin/envmap/statistics.h>
 
@@ -63,7 +64,7 @@ void print_json(const Environment& e, const MapStatistics& s) {
       {"brightest_share", s.brightest_share},
       {"faults", {{"nan", e.faults.nan}, {"infinite", e.faults.infinite}, {"negative", e.faults.negative}}},
       {"warnings", e.warnings}};
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(json));
 }
 
 void run(const InfoCommand& command) {

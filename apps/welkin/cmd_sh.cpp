@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "environment_options.h"
 #include "sh_json.h"
+#include "source_name.h"
 
 #include <welkin/image/output_file.h>
 
@@ -43,7 +44,8 @@ void run(const ShCommand& command) {
     print_table(coefficients);
     return;
   }
-  write_file(command.json_path, sh_json_text(sh_to_json(coefficients, quantity, environment.source)));
+  write_file(command.json_path,
+             sh_json_text(sh_to_json(coefficients, quantity, source_name(environment.source))));
 }
 
 }  // namespace

@@ -68,7 +68,10 @@ void add_sky_command(CLI::App& app) {
     sub->add_option("--" + keys[i].first, command->keys[i].second, keys[i].second);
   sub->add_flag("--no-sun", command->no_sun, "Leave the sun's disc out (day)");
   sub->add_option("-o,--output", command->output, "File to write: .hdr, .exr or .png")->required();
-  sub->footer("Example: welkin sky --kind day --elevation 10 --size 2048x1024 -o day.hdr");
+  sub->footer(
+      "Example: welkin sky --kind day --elevation 10 --size 2048x1024 -o day.hdr\n\nOther commands take as "
+      "INPUT " +
+      sky_spec_help());
   sub->callback([command] { run(*command); });
 }
 

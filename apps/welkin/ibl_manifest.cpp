@@ -1,9 +1,9 @@
 #include "ibl_manifest.h"
 
 #include <cmath>
-#include <filesystem>
 
-#include <welkin/envmap/sky/sky.h>
+#include "source_name.h"
+
 #include <welkin/envmap/statistics.h>
 
 namespace welkin {
@@ -94,11 +94,6 @@ Json files_json(const std::vector<IblFile>& files) {
   return list;
 }
 
-// The file's name alone: a set says where it came from, not where that was on the disk.
-std::string source_name(const std::string& source) {
-  return is_sky_spec(source) ? source : std::filesystem::path(source).filename().string();
-}
-
 const char* method_name(DiffuseMethod method) {
   switch (method) {
     case DiffuseMethod::sh: return "sh";
@@ -134,9 +129,10 @@ Json make_manifest(const ManifestInput& in) {
     json["sh"]["irradiance_mean_error"] = errors->sh_mean;
     json["sh"]["irradiance_max_error"] = errors->sh_max;
     json["dfg"]["max_error"] = errors->dfg_max;
-    json["trilinear"] = {{"relative_rms", errors->trilinear_relative_rms},
-                         {"max_over_mean", errors->trilinear_max_over_mean},
-                         {"by_roughness", errors->trilinear_by_roughness}};
+    if (!errors->trilinear_by_roughness.empty())
+      json["trilinear"] = {{"relative_rms", errors->trilinear_relative_rms},
+                           {"max_over_mean", errors->trilinear_max_over_mean},
+                           {"by_roughness", errors->trilinear_by_roughness}};
   }
   double specular = set.filter.analysis_seconds;
   for (const IblLevel& level : set.levels) specular += level.report.seconds;

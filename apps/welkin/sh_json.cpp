@@ -4,6 +4,8 @@
 
 #include <numbers>
 
+#include "json_text.h"
+
 #include <welkin/error.h>
 #include <welkin/sh/convolution.h>
 
@@ -62,7 +64,7 @@ nlohmann::ordered_json sh_to_json(const ShCoefficients& coefficients, ShQuantity
 std::string sh_json_text(const nlohmann::ordered_json& json) {
   nlohmann::ordered_json head = json;
   head.erase("coefficients");
-  std::string text = head.dump(2);
+  std::string text = json_text(head);
   text.resize(text.rfind('\n'));
   text += ",\n  \"coefficients\": [\n";
   const auto& rows = json["coefficients"];

@@ -20,6 +20,38 @@ TEST_F(OtherCommandsTest, HelpOfEachShowsAnExample) {
   }
 }
 
+TEST_F(OtherCommandsTest, HelpOfSkyListsKindsAndKeys) {
+  const std::string help = run_well({"sky", "--help"});
+  EXPECT_NE(help.find("sky:KIND,key=value"), std::string::npos);
+  EXPECT_LT(help.find("Example"), help.find("sky:KIND,key=value"));
+}
+
+// A name is bytes; what is not UTF-8 in it becomes U+FFFD in JSON, which has to be UTF-8.
+TEST_F(OtherCommandsTest, NamesThatAreNotUtf8) {
+  const std::string name = "caf\xe9.exr";
+  run_well({"sky", "--kind", "constant", "--size", "16x8", "-o", name});
+  const std::string shown = "caf\xef\xbf\xbd.exr";
+  EXPECT_EQ(nlohmann::json::parse(run_well({"info", name, "--json"}))["source"], shown);
+  EXPECT_EQ(nlohmann::json::parse(run_well({"compare", name, name, "--json"}))["a"], shown);
+  run_well({"sh", name, "--json", "sh.json"});
+  EXPECT_EQ(json("sh.json")["source"], shown);
+  EXPECT_EQ(nlohmann::json::parse(run_well({"ibl", name, "-o", "set", "--size", "4", "--json"}))["source"],
+            shown);
+  EXPECT_EQ(json("set/manifest.json")["source"], shown);
+}
+
+// Files that are given away say what they were made of, not where that was on the disk.
+TEST_F(OtherCommandsTest, FilesNameTheirSourceWithoutItsFolder) {
+  std::filesystem::create_directory(at("private"));
+  run_well({"sky", "--kind", "constant", "--size", "16x8", "-o", "private/map.exr"});
+  run_well({"ibl", "private/map.exr", "-o", "set", "--size", "4"});
+  run_well({"sh", at("private/map.exr").string(), "--json", "sh.json"});
+  EXPECT_EQ(json("set/sh.json")["source"], "map.exr");
+  EXPECT_EQ(json("sh.json")["source"], "map.exr");
+  for (const char* file : {"set/sh.json", "set/manifest.json", "set/index.html", "sh.json"})
+    EXPECT_EQ(read_text(at(file)).find("private"), std::string::npos) << file;
+}
+
 TEST_F(OtherCommandsTest, Version) { EXPECT_EQ(run_well({"--version"}), "welkin 0.1.0\n"); }
 
 TEST_F(OtherCommandsTest, InfoOfAConstant) {
