@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "environment_options.h"
 #include "flat_file.h"
 
 #include <welkin/error.h>
@@ -252,8 +253,7 @@ void add_convert_command(CLI::App& app) {
   auto command = std::make_shared<ConvertCommand>();
   CLI::App* sub =
       app.add_subcommand("convert", "Change mapping, layout, size, orientation or format of a map");
-  const CLI::IsMember mappings({"equirectangular", "equirect", "latlong", "cube", "dual-paraboloid",
-                                "paraboloid", "mirror-ball", "sphere-map", "octahedral", "octa"});
+  const CLI::IsMember mappings = is_mapping();
   sub->add_option("input", command->input, "A map; sky_%s.hdr for six faces px .. nz, posx .. negz or 0 .. 5")
       ->required();
   sub->add_option("-o,--output", command->output, "File to write: .hdr, .exr, .png, .ktx2 or .dds")
@@ -266,7 +266,8 @@ void add_convert_command(CLI::App& app) {
                   "N (face, or shorter side) or WxH; default: about as fine as the input");
   sub->add_option("--layout", command->layout, "How a cube lies in a picture")
       ->check(CLI::IsMember({"hcross", "vcross", "hstrip", "vstrip", "six"}));
-  sub->add_option("--rotate", command->rotate, "Degrees about +Y, counter-clockwise from above");
+  sub->add_option("--rotate", command->rotate, "Degrees about +Y, counter-clockwise from above")
+      ->check(must_be_finite);
   sub->add_flag("--mirror", command->mirror, "Exchange left and right (z -> -z), before --rotate");
   sub->add_flag("--mips", command->mips, "Write all mip levels of a cube (.ktx2, .dds)");
   sub->add_option("--format", command->format, "Texels of .ktx2 and .dds")
