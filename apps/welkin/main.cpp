@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -28,6 +29,22 @@ extern "C" void stop(int signal_number) {
   ::_exit(128 + signal_number);
 }
 
+// What nohup, or a shell for its jobs in the background, set to be ignored stays ignored.
+void handle(int signal_number) {
+  struct sigaction inherited {};
+  ::sigaction(signal_number, nullptr, &inherited);
+  if (inherited.sa_handler != SIG_IGN) std::signal(signal_number, stop);
+}
+
+// One line, whatever the parser's text looks like.
+int fail_usage(const CLI::App& app, const CLI::ParseError& error) {
+  std::string what = error.what(), command = "welkin";
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  for (const CLI::App* sub : app.get_subcommands()) command += " " + sub->get_name();
+  std::fprintf(stderr, "welkin: %s (see %s --help)\n", what.c_str(), command.c_str());
+  return 2;
+}
+
 int fail(const char* what) {
   std::fprintf(stderr, "welkin: %s\n", what);
   return 1;
@@ -36,8 +53,7 @@ int fail(const char* what) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, stop);
-  std::signal(SIGTERM, stop);
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) handle(signal_number);
   CLI::App app{"welkin: environment lighting, filtered exactly and measured.\nTry: welkin ibl sky: -o out",
                "welkin"};
   app.set_version_flag("--version", "welkin 0.1.0");
@@ -57,7 +73,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return error.get_exit_code() == 0 ? app.exit(error) : fail_usage(app, error);
   } catch (const std::bad_alloc&) {
     return fail("out of memory");
   } catch (const std::exception& error) {

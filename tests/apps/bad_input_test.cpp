@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -196,6 +198,20 @@ TEST_F(BadOutputTest, AFolderWhereTheFileShouldBe) {
   for (const auto& writer : writers) expect_refused(writer("result"), "result");
 }
 
+// Found before the input is even opened: nobody waits for a set that cannot be written.
+TEST_F(BadOutputTest, AFolderThatCannotBeIsFoundBeforeTheWork) {
+  expect_refused({"ibl", "missing.hdr", "-o", "file/deep/result"}, "file/deep/result");
+}
+
+TEST_F(BadOutputTest, AReadOnlyFolderIsFoundBeforeTheWork) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  std::filesystem::create_directory(at("locked"));
+  std::filesystem::permissions(at("locked"),
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  expect_refused({"ibl", "missing.hdr", "-o", "locked"}, "locked: ");
+  expect_refused({"ibl", "missing.hdr", "-o", "locked/deep/result"}, "locked/deep/result: ");
+}
+
 // A limit on the size of files fails as a full disk does: the write comes back with an error. 200 bytes are less than
 // every output here, and enough for a message.
 TEST_F(BadOutputTest, FullDisk) {
@@ -248,13 +264,28 @@ TEST_F(BadInputTest, BadUsageExitsWithTwo) {
                                    {"convert", "a.hdr", "-o", "result.hdr", "--mips"},
                                    {"convert", "a.hdr", "-o", "result_%s.hdr", "--layout", "hcross"},
                                    {"convert", "a.hdr", "-o", "result.hdr", "--to", "dodecahedral"},
+                                   {"convert", "a.hdr", "-o", "result.hdr", "--rotate", "nan"},
+                                   {"convert", "a.hdr", "-o", "result.hdr", "--rotate", "-inf"},
+                                   {"info", sky, "--rotate", "nan"},
+                                   {"ibl", sky, "-o", "set", "--rotate", "1e999"},
+                                   {"info", sky, "--mapping", "dodecahedral"},
+                                   {"sh", sky, "--mapping", "dodecahedral"},
                                    {"compare", "a.hdr"}};
   for (const Arguments& arguments : bad) {
     const RunResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(arguments) << result.err;
-    EXPECT_NE(result.err, "");
+    EXPECT_EQ(line_count(result.err), 1u) << result.err;
+    EXPECT_TRUE(result.err.starts_with("welkin: ")) << result.err;
+    EXPECT_EQ(result.out, "");
   }
   EXPECT_TRUE(files_below(at("")).empty());
+}
+
+TEST_F(BadInputTest, BadUsageSaysWhereHelpIs) {
+  const RunResult inside = run({"info", "sky:", "--nonsense"});
+  EXPECT_TRUE(inside.err.ends_with(" (see welkin info --help)\n")) << inside.err;
+  const RunResult outside = run({"bake"});
+  EXPECT_TRUE(outside.err.ends_with(" (see welkin --help)\n")) << outside.err;
 }
 
 TEST_F(BadFileTest, SizesThatDoNotFitTheMapping) {

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -77,6 +78,44 @@ TEST_F(InterruptTest, ProgressOnATerminalOnlyUntilCtrlC) {
   const auto files = files_below(at(""));
   EXPECT_EQ(files.size(), 1u);
   EXPECT_EQ(files.at("output.txt"), "");
+}
+
+// The state of a process as waitpid has it once it has ended.
+int end_state(pid_t process) {
+  int status = 0;
+  EXPECT_EQ(::waitpid(process, &status, 0), process);
+  return status;
+}
+
+// A closed terminal: the command ends itself, after it has cleaned up, rather than being ended.
+TEST_F(InterruptTest, HangUpIsHandled) {
+  const int ignored = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  const pid_t process = start_welkin(long_job, at(""), ignored);
+  std::this_thread::sleep_for(1s);
+  ::kill(process, SIGHUP);
+  const int status = end_state(process);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 129);
+  ::close(ignored);
+}
+
+// nohup, and a shell's jobs in the background: what they ignore stays ignored.
+TEST_F(InterruptTest, IgnoredSignalsStayIgnored) {
+  const int ignored = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGINT, SIG_IGN);
+  const pid_t process = start_welkin(long_job, at(""), ignored);
+  std::signal(SIGHUP, SIG_DFL);
+  std::signal(SIGINT, SIG_DFL);
+  std::this_thread::sleep_for(1s);
+  ::kill(process, SIGHUP);
+  ::kill(process, SIGINT);
+  std::this_thread::sleep_for(500ms);
+  ::kill(process, SIGTERM);
+  const int status = end_state(process);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 143);
+  ::close(ignored);
 }
 
 // Whenever it comes, also while files are written: all of the set is there or nothing is, or, in the instant of the
