@@ -128,7 +128,8 @@ class NewFolder {
 
 // All files of the set, written only when everything is made.
 void write_set(const std::filesystem::path& directory, std::vector<IblFile>& files,
-               const nlohmann::ordered_json& manifest, const IblSet& set, const std::string& source) {
+               const nlohmann::ordered_json& manifest, const IblSet& set, const std::string& input) {
+  const std::string source = source_name(input);
   std::vector<OutputFile> out;
   for (IblFile& file : files) out.push_back({directory / file.name, std::move(file.bytes)});
   out.push_back({directory / "sh.json",
@@ -136,6 +137,10 @@ void write_set(const std::filesystem::path& directory, std::vector<IblFile>& fil
   out.push_back({directory / "preview.png", encode_png(make_preview(set))});
   out.push_back({directory / "index.html", bytes_of(make_report_html(manifest))});
   out.push_back({directory / "manifest.json", bytes_of(json_text(manifest) + "\n")});
+  std::error_code none;
+  for (const OutputFile& file : out)
+    if (std::filesystem::equivalent(file.path, input, none))
+      throw Error(input, "is the input and would be overwritten; choose another folder with -o");
   NewFolder folder(directory);
   write_files(out);
   folder.keep();
@@ -197,6 +202,12 @@ void run(IblCommand command) {
     verify.progress = [&](double share) { progress.show(0.3 + 0.7 * share); };
     errors = verify_ibl(set, environment.radiance, options, verify);
   }
+  for (std::size_t k = 1; k < set.levels.size(); ++k)
+    if (!set.levels[k].report.bound_met)
+      fmt::print(
+          stderr,
+          "welkin: {}: warning: level {} could not be filtered to the error bound; check it with --verify\n",
+          environment.source, k);
   std::vector<IblFile> files = encode_ibl_files(set, file_options);
   const ManifestInput described{&environment,
                                 command.in.options.rotate_degrees,
@@ -208,7 +219,7 @@ void run(IblCommand command) {
                                 load_seconds,
                                 seconds()};
   const nlohmann::ordered_json manifest = make_manifest(described);
-  write_set(command.output, files, manifest, set, source_name(environment.source));
+  write_set(command.output, files, manifest, set, environment.source);
   if (command.json) {
     fmt::print("{}\n", json_text(manifest));
     return;

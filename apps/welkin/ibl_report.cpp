@@ -251,7 +251,7 @@ std::string irradiance(const Json& manifest) {
       {"irradiance/errors/lookup_relative_rms", "Relative RMS of a look-up", ""},
       {"irradiance/errors/lookup_max_over_mean", "Largest look-up error over the mean", ""},
       {"irradiance/errors/energy", "Energy over the map&#39;s, minus 1", ""},
-      {"irradiance/errors/edge_step", "Step across edges over step inside faces", ""},
+      {"irradiance/errors/edge_step", "Step across edges over the step predicted there", ""},
       {"sh/degree", "Spherical harmonics up to degree", ""},
       {"sh/irradiance_mean_error", "Irradiance from nine coefficients, mean error over the largest", ""},
       {"sh/irradiance_max_error", "Irradiance from nine coefficients, largest error over the largest", ""},
@@ -328,6 +328,15 @@ std::string glsl_level(const Json& manifest) {
   return "r * (levels - 1.0)";
 }
 
+// What single scattering loses, unless the table already holds it (Turquin 2019, equation 16).
+constexpr const char* compensation_line =
+    "  reflectance *= 1.0 + f0 * (1.0 / (dfg.x + dfg.y) - 1.0);  // light between facets\n";
+
+bool has_compensation(const Json& manifest) {
+  const Json* dfg = find(manifest, "dfg/multiple_scattering_included");
+  return dfg && dfg->is_boolean() && dfg->get<bool>();
+}
+
 std::string how_to_load(const Json& manifest) {
   const Json* list = find_list(manifest, "levels");
   const Json specular = file_named(manifest, "specular"), diffuse = file_named(manifest, "irradiance");
@@ -344,6 +353,7 @@ std::string how_to_load(const Json& manifest) {
       "  float level = {level};\n"
       "  vec2 dfg = texture(dfg_map, vec2(max(dot(n, v), 0.0), r)).rg;\n"
       "  vec3 reflectance = f0 * dfg.x + dfg.y;\n"
+      "{compensation}"
       "  vec3 radiance = {specular_scale:.1f} * textureLod(specular_map, reflect(-v, n), level).rgb;  // "
       "stored scale\n"
       "  vec3 irradiance = {irradiance_scale:.1f} * texture(irradiance_map, n).rgb;\n"
@@ -354,6 +364,7 @@ std::string how_to_load(const Json& manifest) {
       fmt::arg("levels", number(manifest, "level_law/levels", static_cast<double>(list->size()))),
       fmt::arg("size", number(manifest, "level_law/size", number(specular, "size", 256))),
       fmt::arg("level", glsl_level(manifest)),
+      fmt::arg("compensation", has_compensation(manifest) ? "" : compensation_line),
       fmt::arg("specular_scale", number(specular, "stored_scale", 1)),
       fmt::arg("irradiance_scale", number(diffuse, "stored_scale", 1)));
 }

@@ -96,9 +96,8 @@ TEST_F(EnvironmentFiles, NamesWhatIsWrong) {
 TEST_F(EnvironmentFiles, ValuesWhoseIrradianceLeavesFloatAreRefused) {
   Image map = constant_map(16, 8, 1);
   map.pixels[10] = 2e30f;
-  const std::string message = error_of(save("bright.exr", map));
-  EXPECT_NE(message.find("bright.exr: holds values up to 2e+30; scale it below 1e30"), std::string::npos)
-      << message;
+  const std::string message = error_of(save("bright.hdr", map));
+  EXPECT_NE(message.find("bright.hdr: holds values up to"), std::string::npos) << message;
 }
 
 TEST_F(EnvironmentFiles, EveryErrorNamesTheInput) {

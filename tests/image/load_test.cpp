@@ -73,6 +73,17 @@ TEST_F(Load, OtherExtensionsAreRefusedAndWriteNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("a.tga")));
 }
 
+// A link stays a link and what it points to is replaced; a device is written to, not replaced.
+TEST_F(Load, LinksAndDevicesStayWhatTheyAre) {
+  write_file(path("target"), std::string("old"));
+  std::filesystem::create_symlink(path("target"), path("link"));
+  write_file(path("link"), std::string("new"));
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+  EXPECT_EQ(read_file(path("target")), (std::vector<std::uint8_t>{'n', 'e', 'w'}));
+  EXPECT_THROW(write_file("/dev/full", std::string("x")), Error);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
 // What an earlier process of the same number left behind is neither in the way nor ours to remove.
 TEST_F(Load, StaleTemporaryFilesAreLeftAlone) {
   const std::string stem = path("a.hdr").string() + ".part-" + std::to_string(::getpid()) + "-";

@@ -87,5 +87,19 @@ TEST(RangeFit, AgreesWithTheEncoder) {
   }
 }
 
+// A dim map keeps its digits: without a scale 3e-8 would be half of the smallest half float.
+TEST(RangeFit, ScalesDimDataUp) {
+  const std::vector<float> values{3e-8f, 1e-5f};
+  const RangeFit fit = choose_scale(values, PixelFormat::rgba16f, RangePolicy::scale);
+  EXPECT_LT(fit.stored_scale, 1);
+  EXPECT_GE(1e-5 / fit.stored_scale, 0.5);
+  EXPECT_LT(1e-5 / fit.stored_scale, 1);
+  EXPECT_EQ(fit.clipped, 0u);
+  EXPECT_EQ(choose_scale(values, PixelFormat::rgba32f, RangePolicy::scale).stored_scale, 1);
+  EXPECT_EQ(choose_scale(values, PixelFormat::rgba16f, RangePolicy::clip).stored_scale, 1);
+  EXPECT_EQ(choose_scale(std::vector<float>{0.0f}, PixelFormat::rgba16f, RangePolicy::scale).stored_scale, 1);
+  EXPECT_EQ(choose_scale(std::vector<float>{0.5f}, PixelFormat::rgb9e5, RangePolicy::scale).stored_scale, 1);
+}
+
 }  // namespace
 }  // namespace welkin

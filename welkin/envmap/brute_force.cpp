@@ -157,7 +157,8 @@ void filter_one(const Image& radiance, double bright, Vec3 direction, std::span<
     const float* pixels = radiance.at(0, y);
     for (std::size_t k = 0; k < kernels.size(); ++k) {
       row_weights(kernels[k], at, row, scratch, weights);
-      if (kink_slope(kernels[k]) > steep_kink) replace_texels_at_end(kernels[k], at, row, pixels, bright, weights);
+      if (kink_slope(kernels[k]) > steep_kink)
+        replace_texels_at_end(kernels[k], at, row, pixels, bright, weights);
       double sums[3] = {};
       for (int x = 0; x < radiance.width; ++x)
         for (int c = 0; c < 3; ++c) sums[c] += weights[x] * static_cast<double>(pixels[3 * x + c]);

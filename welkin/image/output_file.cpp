@@ -92,6 +92,33 @@ void fill(UnfinishedFile& unfinished, const std::filesystem::path& path,
   if (unfinished.close() != 0) fail(path, "cannot write", errno);
 }
 
+// A link stays a link: what it points to is replaced.
+std::filesystem::path behind_links(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path target = std::filesystem::canonical(path, error);
+  return error ? path : target;
+}
+
+// A device or a pipe is never replaced by a file: bytes go into it.
+bool write_through(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status) ||
+      std::filesystem::is_directory(status))
+    return false;
+  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) fail(path, "cannot write", errno);
+  try {
+    write_all(file, bytes, path);
+  } catch (...) {
+    ::close(file);
+    throw;
+  }
+  ::close(file);
+  return true;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
@@ -110,9 +137,11 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-  UnfinishedFile unfinished(path);
+  if (write_through(path, bytes)) return;
+  const std::filesystem::path target = behind_links(path);
+  UnfinishedFile unfinished(target);
   fill(unfinished, path, bytes);
-  unfinished.rename_to(path);
+  unfinished.rename_to(target);
 }
 
 void write_files(std::span<const OutputFile> files) {

@@ -44,6 +44,9 @@ double scale_for(float largest, PixelFormat format, RangePolicy policy) {
   if (policy == RangePolicy::clip) return scale;
   const double limit = pixel_format_max(format);
   while (largest > limit * scale) scale *= 2;
+  // Dim data would fall among the coarse small numbers of a 16-bit format.
+  const bool dim = format != PixelFormat::rgba32f && format != PixelFormat::rg32f && largest < 1.0 / 64;
+  while (dim && largest > 0 && largest < 0.5 * scale) scale /= 2;
   return scale;
 }
 

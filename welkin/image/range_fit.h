@@ -13,7 +13,8 @@
 // step is a constant 2^-24 = 6e-8, and below 2^-25 is zero. With stored_scale S these limits, in radiance,
 // are S times larger: S = 16 keeps 11 bits down to 1e-3 and its smallest step is 1e-6. rgb9e5 has 9 bits per
 // pixel's largest channel down to 2^-16 S, then a constant step of 2^-24 S. So the scale is the smallest
-// power of two that fits, and 1 where it can.
+// power of two >= 1 that fits; and data whose largest value is below 1/64 is scaled up instead (S < 1), so that a
+// dim map keeps its digits.
 
 namespace welkin {
 
@@ -25,7 +26,7 @@ enum class RangePolicy {
 
 /// The outcome of fitting a set of values into a format.
 struct RangeFit {
-  double stored_scale = 1;  ///< a power of two >= 1: true value = stored value * stored_scale
+  double stored_scale = 1;  ///< a power of two: true value = stored value * stored_scale
   std::size_t clipped =
       0;  ///< values that the format changes all the same: too large, infinite, NaN, negative (rgb9e5)
 };
@@ -34,8 +35,8 @@ struct RangeFit {
 /// rgb9e5); 0 for none. Runs on all threads.
 float largest_storable(std::span<const float> values, PixelFormat format);
 
-/// The smallest power of two >= 1 that brings `largest` (finite, >= 0) down to what `format` can hold; 1
-/// under RangePolicy::clip.
+/// The smallest power of two >= 1 that brings `largest` (finite, >= 0) down to what `format` can hold; for the 16-bit
+/// formats and 0 < largest < 1/64 the power of two that brings it up to [0.5, 1). 1 under RangePolicy::clip.
 double scale_for(float largest, PixelFormat format, RangePolicy policy);
 
 /// The scale for these values, and how many of them are clipped with it. Runs on all threads.
