@@ -204,12 +204,19 @@ TEST_F(BadOutputTest, AFolderThatCannotBeIsFoundBeforeTheWork) {
 }
 
 TEST_F(BadOutputTest, AReadOnlyFolderIsFoundBeforeTheWork) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   std::filesystem::create_directory(at("locked"));
   std::filesystem::permissions(at("locked"),
                                std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
-  expect_refused({"ibl", "missing.hdr", "-o", "locked"}, "locked: ");
-  expect_refused({"ibl", "missing.hdr", "-o", "locked/deep/result"}, "locked/deep/result: ");
+  for (const char* output : {"locked", "locked/deep/result"}) {
+    const RunResult result = run_obeying_permissions({"ibl", "missing.hdr", "-o", output});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_EQ(line_count(result.err), 1u) << result.err;
+    EXPECT_NE(result.err.find(std::string(output) + ": "), std::string::npos) << result.err;
+  }
+  const RunResult writer = run_obeying_permissions({"sky", "-o", "locked/a.hdr", "--size", "8x4"});
+  EXPECT_EQ(writer.exit_code, 1) << writer.err;
+  EXPECT_NE(writer.err.find("locked/a.hdr: cannot write"), std::string::npos) << writer.err;
+  EXPECT_TRUE(files_below(at("locked")).empty());
 }
 
 // A limit on the size of files fails as a full disk does: the write comes back with an error. 200 bytes are less than
@@ -234,7 +241,7 @@ TEST_F(BadOutputTest, NamesThatSayNoFormat) {
 TEST_F(BadOutputTest, FullDiskBehindStandardOutput) {
   for (const Arguments& arguments : {Arguments{"info", "good.hdr"}, Arguments{"sh", "good.hdr"},
                                      Arguments{"compare", "good.hdr", "good.hdr"}}) {
-    const RunResult result = run_welkin(arguments, {at(""), 0, "/dev/full"});
+    const RunResult result = run_welkin(arguments, {at(""), 0, false, "/dev/full"});
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.err, "welkin: standard output: cannot write: No space left on device\n");
   }

@@ -16,9 +16,14 @@ class CommandTest : public testing::Test {
   using Arguments = std::vector<std::string>;
 
   std::filesystem::path at(const std::string& name) const { return folder_.path() / name; }
-  RunResult run(const Arguments& arguments) const { return run_welkin(arguments, {folder_.path(), 0, ""}); }
+  RunResult run(const Arguments& arguments) const {
+    return run_welkin(arguments, {folder_.path(), 0, false, ""});
+  }
   RunResult run(const Arguments& arguments, std::uint64_t file_limit) const {
-    return run_welkin(arguments, {folder_.path(), file_limit, ""});
+    return run_welkin(arguments, {folder_.path(), file_limit, false, ""});
+  }
+  RunResult run_obeying_permissions(const Arguments& arguments) const {
+    return run_welkin(arguments, {folder_.path(), 0, true, ""});
   }
   /// Runs what has to work, without a word on standard error; returns standard output.
   std::string run_well(const Arguments& arguments) const {

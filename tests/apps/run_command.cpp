@@ -1,6 +1,8 @@
 #include "run_command.h"
 
 #include <fcntl.h>
+#include <linux/capability.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,6 +24,7 @@ struct Launch {
   std::string folder;
   int out = -1, err = -1;
   rlim_t file_limit = 0;
+  bool obey_permissions = false;
 };
 
 Launch prepare(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
@@ -41,6 +44,10 @@ pid_t start(Launch& launch) {
   std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{launch.file_limit, launch.file_limit};
   if (launch.file_limit > 0 && ::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
+  // Without these capabilities root is refused by permissions as anyone is; for others there is nothing to drop.
+  for (int capability : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH})
+    if (launch.obey_permissions && ::geteuid() == 0 && ::prctl(PR_CAPBSET_DROP, capability) != 0)
+      ::_exit(126);
   const bool ready =
       ::chdir(launch.folder.c_str()) == 0 && ::dup2(launch.out, 1) == 1 && ::dup2(launch.err, 2) == 2;
   if (ready) ::execv(launch.argv[0], launch.argv.data());
@@ -70,6 +77,7 @@ RunResult run_welkin(const std::vector<std::string>& arguments, const RunOptions
   const TemporaryFolder captured;
   Launch launch = prepare(arguments, options.folder);
   launch.file_limit = options.file_limit;
+  launch.obey_permissions = options.obey_permissions;
   const std::string out =
       options.standard_output.empty() ? (captured.path() / "out").string() : options.standard_output;
   launch.out = ::open(out.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);

@@ -30,9 +30,10 @@ struct RunResult {
 };
 
 struct RunOptions {
-  std::filesystem::path folder;  ///< where it runs
-  std::uint64_t file_limit = 0;  ///< bytes that a file can have, a full disk; 0 does not limit
-  std::string standard_output;   ///< a file to open for standard output; empty: captured
+  std::filesystem::path folder;   ///< where it runs
+  std::uint64_t file_limit = 0;   ///< bytes that a file can have, a full disk; 0 does not limit
+  bool obey_permissions = false;  ///< as root too
+  std::string standard_output;    ///< a file to open for standard output; empty: captured
 };
 
 /// Runs `welkin` with these arguments and waits for it.
