@@ -8,8 +8,8 @@ namespace welkin {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int max_degree = 2048;  // beyond it a core is always cheaper
-constexpr double safety = 2;      // the ripple's crest lies beside the two places where it is evaluated
+constexpr int max_degree = 2048;   // beyond it a core is always cheaper
+constexpr double axis_safety = 2;  // costs little: spectra of smooth kernels fall exponentially
 constexpr double smallest_factor = 3e-5;
 
 // Error bound. Dropping degrees > L leaves out the convolution with K - K_L, a ripple of wavelength 2 pi/L. It is
@@ -29,8 +29,8 @@ int degree_within(const std::vector<double>& factors, const BrightSplit& map, do
     const double ripple = 2 * pi / l;
     const double met_on_axis = std::min(flux, radiance * pi * ripple * ripple / 4 * 4);
     const double met_on_ring = std::min(flux, radiance * ripple * 2 * std::sqrt(flux / radiance));
-    const double error = worst_axis * met_on_axis + worst_ring * met_on_ring;
-    if (safety * error > tolerance * map.mean || std::abs(factors[l]) > smallest_factor) return l;
+    const double error = axis_safety * worst_axis * met_on_axis + worst_ring * met_on_ring;
+    if (error > tolerance * map.mean || std::abs(factors[l]) > smallest_factor) return l;
   }
   return 1;
 }
