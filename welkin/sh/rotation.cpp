@@ -39,6 +39,17 @@ Mat3 newton_schulz_step(const Mat3& r) {
   return result;
 }
 
+// The recurrence multiplies its rounding by about 500 between degree 32 and 64 (and hardly before), which is why larger
+// degrees run in long double: orthogonal to 2e-14 at degree 64 then, to 2e-11 in double.
+constexpr int last_degree_in_double = 24;
+
+template <class Real>
+std::vector<Real> blocks_of(const Mat3& rotation, int max_degree) {
+  std::vector<Real> blocks(rotation::block_start(max_degree + 1)), reciprocals(2 * max_degree + 1);
+  rotation::all_blocks(rotation, max_degree, blocks.data(), reciprocals.data());
+  return blocks;
+}
+
 bool changes_sign(MirrorAxis axis, int l, int m) {
   switch (axis) {
     case MirrorAxis::x: return (m % 2 != 0) != (m < 0);  // azimuth to 180 degrees minus azimuth
@@ -66,9 +77,14 @@ ShRotation make_sh_rotation(const Mat3& rotation, int max_degree) {
   const Mat3 orthogonal = orthonormalized(rotation);
   ShRotation result;
   result.max_degree = max_degree;
-  result.blocks.resize(static_cast<std::size_t>(rotation::block_start(max_degree + 1)));
-  double reciprocals[2 * max_rotation_degree + 1];
-  rotation::all_blocks(orthogonal, max_degree, result.blocks.data(), reciprocals);
+  if (max_degree <= last_degree_in_double) {
+    result.blocks = blocks_of<double>(orthogonal, max_degree);
+  } else {
+    const std::vector<long double> blocks = blocks_of<long double>(orthogonal, max_degree);
+    result.blocks.resize(blocks.size());
+    std::transform(blocks.begin(), blocks.end(), result.blocks.begin(),
+                   [](long double value) { return static_cast<double>(value); });
+  }
   return result;
 }
 

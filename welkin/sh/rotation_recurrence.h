@@ -16,7 +16,6 @@
 // u, v and w share the denominator sqrt((l+n)(l-n)), at |n| = l sqrt(2l(2l-1)); their numerators depend on m alone. So a
 // row is a sum of at most five rows of the degree before it, times a row of reciprocals: loops that vectorise.
 //
-// The recurrence loses about two digits on its way to degree 64; what is made once is made in long double.
 // Everything is constexpr, so that the small rotations can have their constant matrices as compile-time numbers.
 
 namespace welkin::rotation {
