@@ -81,7 +81,7 @@ TEST(ShRotation, OfARotationIsTheRotationOfTheProduct) {
   EXPECT_LT(largest_difference(rotate(rotate(f, a), b).values, rotate(f, product(b, a)).values), 1e-13);
 }
 
-// Eight unit vectors of degree 64, turned 1,000 times, stay orthonormal (bench/rotation_bench.cpp takes all 129); and
+// Eight unit vectors of degree 64, turned 1,000 times, stay orthonormal (bench/rotation_bench.cpp takes more); and
 // they are where the product of the 1,000 matrices, itself kept orthogonal, takes them.
 TEST(ShRotation, AThousandComposedRotationsStayOrthogonal) {
   constexpr int degree = 64, columns = 8;
