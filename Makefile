@@ -1,15 +1,14 @@
 # The short way in. Each target is one script in scripts/; the build itself is CMake (CMakePresets.json).
 .PHONY: help demo test bench asan fuzz format lint clean
 .NOTPARALLEL:
-FUZZ_SECONDS ?= $(if $(CI),60,10)
-export FUZZ_SECONDS
+FUZZ_SECONDS ?= 60
 
 help:
 	@echo "make demo    install what is missing, build, and turn the built-in sky into build/demo/index.html"
-	@echo "make test    the same set-up, then every test, then each fuzzer for FUZZ_SECONDS ($(FUZZ_SECONDS))"
+	@echo "make test    the same set-up, then every test, then the fuzzers on repeatable inputs"
 	@echo "make bench   every benchmark: time and error side by side"
 	@echo "make asan    every test under address and undefined-behaviour sanitizers"
-	@echo "make fuzz    only the fuzzers, FUZZ_SECONDS each"
+	@echo "make fuzz    the fuzzers explore, FUZZ_SECONDS each ($(FUZZ_SECONDS)), and keep what they discover"
 	@echo "make format  clang-format on every tracked source;  make lint  checks format and clang-tidy"
 	@echo "make clean   removes build/"
 

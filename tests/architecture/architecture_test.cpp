@@ -49,6 +49,8 @@ const std::vector<Confined> confined = {
      std::regex("welkin/image/codecs/exr[^/]*\\.cpp")},
     {"zstd", std::regex("(zstd|zdict).*\\.h"), std::regex("welkin/image/codecs/ktx2[^/]*\\.cpp")},
     {"libpng", std::regex("(libpng[0-9]*/)?png.*\\.h"), std::regex("welkin/image/codecs/png[^/]*\\.cpp")},
+    {"TurboJPEG", std::regex("(turbojpeg|jpeglib|jerror)\\.h"),
+     std::regex("welkin/image/codecs/jpeg[^/]*\\.cpp")},
     {"kissfft", std::regex("(kissfft/)?kiss_?fft.*"), std::regex("welkin/sh/[^/]*\\.cpp")},
 };
 
@@ -176,6 +178,7 @@ TEST(Architecture, RulesRefuseAndAllowWhatTheyShould) {
   EXPECT_TRUE(refused("welkin/image/codecs/exr.h", "OpenEXR/ImfHeader.h"));
   EXPECT_TRUE(refused("welkin/image/codecs/dds.cpp", "zstd.h"));
   EXPECT_TRUE(refused("welkin/image/codecs/ldr.cpp", "png.h"));
+  EXPECT_TRUE(refused("welkin/image/codecs/ldr.cpp", "turbojpeg.h"));
   EXPECT_TRUE(refused("apps/welkin/main.cpp", "Imath/ImathVec.h"));
 
   EXPECT_FALSE(refused("welkin/envmap/a.cpp", "welkin/parallel/parallel_for.h"));  // through sphere and image
@@ -184,6 +187,8 @@ TEST(Architecture, RulesRefuseAndAllowWhatTheyShould) {
   EXPECT_FALSE(refused("welkin/parallel/parallel_for.cpp", "tbb/info.h"));
   EXPECT_FALSE(refused("welkin/image/codecs/exr_write.cpp", "ImfOutputFile.h"));
   EXPECT_FALSE(refused("welkin/image/codecs/ktx2.cpp", "zstd.h"));
+  EXPECT_FALSE(refused("welkin/image/codecs/png_read.cpp", "png.h"));
+  EXPECT_FALSE(refused("welkin/image/codecs/jpeg_read.cpp", "turbojpeg.h"));
   EXPECT_FALSE(refused("welkin/sh/transform.cpp", "kissfft/kissfft.hh"));
   EXPECT_FALSE(refused("apps/welkin/ibl.cpp", "welkin/envmap/filter.h"));
 }

@@ -1,10 +1,9 @@
-#include <stb_image_write.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <string>
 
 #include <tests/image/exr_files.h>
+#include <tests/image/ldr_files.h>
 #include <welkin/image/codecs/dds.h>
 #include <welkin/image/codecs/exr.h>
 #include <welkin/image/codecs/hdr.h>
@@ -96,10 +95,15 @@ void add_exr(const SeedFolder& seeds) {
   seeds.add("exr", "ours.exr", encode_exr(picture(5, 4), {.stored_scale = 4}));
 }
 
-void append(void* context, void* data, int count) {
-  const auto* begin = static_cast<const std::uint8_t*>(data);
-  auto& out = *static_cast<Bytes*>(context);
-  out.insert(out.end(), begin, begin + count);
+void add_png_form(const SeedFolder& seeds, const std::string& name, PngForm form) {
+  const int largest = (1 << form.bits) - 1;
+  form.width = 9, form.height = 5;
+  if (form.color == PngColor::palette)
+    form.palette.assign(static_cast<std::size_t>(largest) + 1, {9, 99, 199});
+  const auto sample = [=](int x, int y, int c) { return (x * 7 + y * 31 + c * 101) & largest; };
+  seeds.add("ldr", name + ".png", png_file(form, sample));
+  form.interlaced = true;
+  seeds.add("ldr", name + "-interlaced.png", png_file(form, sample));
 }
 
 void add_ldr(const SeedFolder& seeds) {
@@ -107,9 +111,20 @@ void add_ldr(const SeedFolder& seeds) {
   for (std::size_t i = 0; i < bytes.pixels.size(); ++i) bytes.pixels[i] = static_cast<std::uint8_t>(7 * i);
   seeds.add("ldr", "rgb.png", encode_png(bytes));
   seeds.add("ldr", "gray.png", encode_png(ByteImage(3, 3, 1)));
-  Bytes jpeg;
-  stbi_write_jpg_to_func(append, &jpeg, bytes.width, bytes.height, 3, bytes.pixels.data(), 80);
-  seeds.add("ldr", "rgb.jpg", jpeg);
+  add_png_form(seeds, "gray1", {.color = PngColor::gray, .bits = 1});
+  add_png_form(seeds, "palette2", {.color = PngColor::palette, .bits = 2, .transparent_color = true});
+  add_png_form(seeds, "palette8", {.color = PngColor::palette, .bits = 8});
+  add_png_form(seeds, "rgba8", {.color = PngColor::rgba, .bits = 8, .ancillary = true});
+  add_png_form(seeds, "gray16", {.color = PngColor::gray_alpha, .bits = 16});
+  add_png_form(seeds, "rgb16", {.color = PngColor::rgb, .bits = 16});
+  for (bool progressive : {false, true}) {
+    const std::string suffix = progressive ? "-progressive.jpg" : ".jpg";
+    seeds.add("ldr", "gray" + suffix, jpeg_file(ByteImage(9, 5, 1), {.progressive = progressive}));
+    seeds.add("ldr", "rgb420" + suffix, jpeg_file(bytes, {.progressive = progressive}));
+    seeds.add("ldr", "rgb444" + suffix,
+              jpeg_file(bytes, {.subsampling = TJSAMP_444, .progressive = progressive}));
+  }
+  seeds.add("ldr", "cmyk.jpg", cmyk_jpeg_file());
 }
 
 void add_textures(const SeedFolder& seeds) {

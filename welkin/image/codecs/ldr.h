@@ -8,15 +8,16 @@
 #include <welkin/image/image.h>
 #include <welkin/image/loaded_image.h>
 
-// Pictures of low dynamic range: PNG and JPEG, read through the stb library, which stays behind ldr.cpp; PNG
-// is written through libpng, behind png_write.cpp.
+// Pictures of low dynamic range: PNG and JPEG, read and written through libpng (png_read.cpp, png_write.cpp) and
+// TurboJPEG (jpeg_read.cpp).
 
 namespace welkin {
 
 /// Decodes a PNG (1 to 16 bits) or a baseline or progressive JPEG. Values are taken as sRGB and made linear,
 /// 0 to 1; alpha is dropped, gray repeated, embedded profiles and gamma are not applied. The result always
-/// carries the warning that such a file is not HDR. Throws Error naming `name` for other formats and damaged
-/// or truncated files.
+/// carries the warning that such a file is not HDR. Throws Error naming `name` for other formats, CMYK, unusual
+/// subsampling of a JPEG's colour (the common ones are 4:4:4, 4:2:2, 4:4:0, 4:2:0 and 4:1:1), PNGs with a side above
+/// 1,000,000, and for anything damaged or truncated: a wrong check sum or a warning of the library counts as damage.
 LoadedImage decode_ldr(std::span<const std::uint8_t> bytes, std::string_view name);
 
 /// Encodes 8-bit gray (1 channel) or RGB (3) as PNG.

@@ -6,8 +6,6 @@
 #include <welkin/error.h>
 #include <welkin/image/codecs/ldr.h>
 
-// PNG files are written by libpng: smaller files in less than half the time of stb's writer.
-
 namespace welkin {
 namespace {
 
