@@ -36,4 +36,16 @@ inline double equirect_texel_solid_angle(int width, int height, int row) {
   return 4 * std::numbers::pi / width * std::sin(centre) * std::sin(half_step);
 }
 
+/// The integral of the direction over a texel's patch, exact: the sum over all texels that are lit, times radiance, is
+/// the vector irradiance. Its length over the solid angle is below 1 by half the patch's angular variance.
+///   integral of sin^2 theta d theta = (step - cos 2 theta_c sin step) / 2, of sin theta cos theta = sin 2 theta_c sin step / 2,
+///   of cos phi d phi = 2 sin(step / 2) cos phi_c, about the centre (theta_c, phi_c).
+inline Vec3 equirect_texel_moment(int width, int height, int x, int row) {
+  const double step = std::numbers::pi / height, theta = (row + 0.5) * step;
+  const double phi_step = 2 * std::numbers::pi / width, phi = (x + 0.5) * phi_step - std::numbers::pi;
+  const double across = (step - std::cos(2 * theta) * std::sin(step)) * std::sin(phi_step / 2);
+  return {across * std::cos(phi), 0.5 * std::sin(2 * theta) * std::sin(step) * phi_step,
+          across * std::sin(phi)};
+}
+
 }  // namespace welkin
