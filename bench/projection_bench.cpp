@@ -147,8 +147,7 @@ std::vector<double> brute_force_irradiance(const Cube& radiance) {
   return out;
 }
 
-// Yardsticks of the machine: reading the cube's floats once from the nearest cache, and as many multiply-adds as the
-// plain tables take (nine a number), both as the compiler makes them from a simple loop.
+// Yardstick of the machine: every number of the cube read once and added, as the compiler makes it of a plain loop.
 double plain_sum(const std::vector<float>& values) {
   std::array<float, 64> sums{};
   for (std::size_t i = 0; i + 64 <= values.size(); i += 64)

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// L = exp(x): coefficients of its zonal form about x are smooth; the truth is taken by project_cube's nodes of a
-// function, here by the closed forms of degree 0 and 1: 4 pi sinh 1 and 4 pi (cosh 1 - sinh 1), times the basis.
+// L = exp(x): its integral over the sphere is 4 pi sinh 1, that of x exp(x) is 4 pi (cosh 1 - sinh 1) = 4 pi / e, and
+// y and z times it vanish.
 void exponential(Vec3 direction, std::span<double> out) { out[0] = std::exp(direction.x); }
 
 const double truth_00 = std::sqrt(1 / (4 * pi)) * 4 * pi * std::sinh(1.0);

@@ -12,7 +12,7 @@ namespace {
 
 // A block is three of these. Compilers split them into what the machine has.
 using Lanes = float __attribute__((vector_size(64)));
-constexpr int lane_count = 16, vectors = 3, block_floats = lane_count * vectors;
+constexpr int lane_count = 16, vectors = FloatBlock::size / lane_count, block_floats = FloatBlock::size;
 
 WELKIN_INLINE Lanes load(const float* from) {
   Lanes lanes;
@@ -79,6 +79,30 @@ WELKIN_INLINE void dot_rows(const FloatBlock* row, int blocks, const FloatBlock*
   for (; k < count; ++k) dot_group<1>(row, blocks, table + k, stride, sums + k);
 }
 
+// Three vectors: a block in registers.
+struct Registers {
+  Lanes lanes[vectors]{};
+
+  WELKIN_INLINE void add(float factor, const FloatBlock& block) {
+    for (int i = 0; i < vectors; ++i) lanes[i] += factor * load(&block.lanes[i * lane_count]);
+  }
+  WELKIN_INLINE void add_product(const FloatBlock& a, const FloatBlock& b) {
+    for (int i = 0; i < vectors; ++i)
+      lanes[i] += load(&a.lanes[i * lane_count]) * load(&b.lanes[i * lane_count]);
+  }
+  WELKIN_INLINE void store_to(float* to) const {
+    for (int i = 0; i < vectors; ++i) store(to + i * lane_count, lanes[i]);
+  }
+};
+
+// The first `count` numbers of a block that may be a row's last.
+WELKIN_INLINE void store_part(const Registers& block, float* to, int count) {
+  if (count >= block_floats) return block.store_to(to);
+  FloatBlock whole;
+  block.store_to(whole.lanes.data());
+  std::copy_n(whole.lanes.data(), count, to);
+}
+
 }  // namespace
 
 // Rows outside, faces inside: a row of the table stays in the nearest cache for all six faces.
@@ -91,10 +115,33 @@ void add_folded_rows(const FoldedTable& table, const float* texels, FloatBlock* 
     for (int part = 0; part < table.parts; ++part) {
       const Pair pair = row_pair(table, part, row);
       fold(texels + pair.first, texels + pair.second, table.row_floats, even, odd);
-      dot_rows(even, table.blocks, values, functions, table.even, sums + part * functions);
-      dot_rows(odd, table.blocks, values + table.even, functions, table.odd,
-               sums + part * functions + table.even);
+      FloatBlock* sum = sums + part * functions;
+      dot_rows(even, table.blocks, values, functions, table.even, sum);
+      dot_rows(odd, table.blocks, values + table.even, functions, table.odd, sum + table.even);
     }
+  }
+}
+
+WELKIN_TARGET_CLONES
+void harmonics_of_moments(const FoldedTable& table, const FloatBlock* moments, FloatBlock* harmonics) {
+  const int functions = table.functions(), all = table.parts * functions;
+  const float* basis = table.basis.data();
+  for (int lm = 0; lm < functions; ++lm) {
+    Registers sum;
+    for (int k = 0; k < all; ++k) sum.add(*basis++, moments[k]);
+    sum.store_to(harmonics[lm].lanes.data());
+  }
+}
+
+WELKIN_TARGET_CLONES
+void factors_of_harmonics(const FoldedTable& table, const FloatBlock* harmonics, int known,
+                          FloatBlock* factors) {
+  const int functions = table.functions(), all = table.parts * functions;
+  for (int k = 0; k < all; ++k) {
+    Registers sum;
+    for (int lm = 0; lm < known; ++lm)
+      sum.add(table.basis[static_cast<std::size_t>(lm) * all + k], harmonics[lm]);
+    sum.store_to(factors[k].lanes.data());
   }
 }
 
@@ -108,19 +155,16 @@ void write_unfolded_rows(const FoldedTable& table, const FloatBlock* factors, fl
           table.values.data() + static_cast<std::size_t>(row) * table.blocks * functions;
       const FloatBlock* factor = factors + part * functions;
       for (int block = 0; block < table.blocks; ++block, values += functions) {
-        FloatBlock first, second;
+        Registers even, odd, first, second;
+        for (int k = 0; k < table.even; ++k) even.add_product(factor[k], values[k]);
+        for (int k = table.even; k < functions; ++k) odd.add_product(factor[k], values[k]);
         for (int i = 0; i < vectors; ++i) {
-          Lanes even{}, odd{};
-          for (int k = 0; k < table.even; ++k)
-            even += load(&factor[k].lanes[i * lane_count]) * load(&values[k].lanes[i * lane_count]);
-          for (int k = table.even; k < functions; ++k)
-            odd += load(&factor[k].lanes[i * lane_count]) * load(&values[k].lanes[i * lane_count]);
-          store(&first.lanes[i * lane_count], even + odd);
-          store(&second.lanes[i * lane_count], even - odd);
+          first.lanes[i] = even.lanes[i] + odd.lanes[i];
+          second.lanes[i] = even.lanes[i] - odd.lanes[i];
         }
-        const int at = block * block_floats, count = std::min(block_floats, table.row_floats - at);
-        std::copy_n(first.lanes.data(), count, texels + pair.first + at);
-        std::copy_n(second.lanes.data(), count, texels + pair.second + at);
+        const int at = block * block_floats, count = table.row_floats - at;
+        store_part(first, texels + pair.first + at, count);
+        store_part(second, texels + pair.second + at, count);
       }
     }
   }

@@ -53,8 +53,8 @@ void evaluate_face_functions(std::span<const FaceFunction> functions, double s, 
     out[k] = ps[functions[k].a] * pt[functions[k].b] / std::pow(r, functions[k].power);
 }
 
-// basis[(face * count + lm) * count + k] = c_ab, see above.
-std::vector<double> cube_basis(std::span<const FaceFunction> functions, int max_degree) {
+// basis[(lm * 6 + face) * count + k] = c_ab, see above.
+std::vector<float> cube_basis(std::span<const FaceFunction> functions, int max_degree) {
   const std::size_t count = functions.size();
   const QuadratureRule rule = gauss_legendre(max_degree + 1);
   std::vector<double> basis(6 * count * count), harmonics(count);
@@ -71,13 +71,13 @@ std::vector<double> cube_basis(std::span<const FaceFunction> functions, int max_
             const double c = (2 * a + 1) * (2 * b + 1) / 4.0 * weight * ps[a] * pt[b] *
                              std::pow(1 + s * s + t * t, 0.5 * power);
             for (int m = -l; m <= l; ++m)
-              basis[(face * count + sh_index(l, m)) * count + k] += c * harmonics[sh_index(l, m)];
+              basis[(sh_index(l, m) * 6 + face) * count + k] += c * harmonics[sh_index(l, m)];
           }
         }
       }
     }
   }
-  return basis;
+  return {basis.begin(), basis.end()};
 }
 
 // The harmonics themselves: those with l + m even are even under z -> -z, which exchanges the discs.
@@ -107,7 +107,7 @@ FoldedTable empty_table(MapShape shape, int max_degree, int channels) {
   table.parts = cube ? 6 : 1;
   table.rows = cube ? (size + 1) / 2 : size;
   table.row_floats = channels * size;
-  table.blocks = (table.row_floats + 47) / 48;
+  table.blocks = (table.row_floats + FloatBlock::size - 1) / FloatBlock::size;
   return table;
 }
 
@@ -126,8 +126,10 @@ void fill(FoldedTable& table, NodesOf&& nodes_of, Evaluate&& evaluate) {
         for (std::size_t k = 0; k < functions; ++k) sum[k] += node.weight * value[k];
       }
       for (int at = x * table.channels; at < (x + 1) * table.channels; ++at) {
-        FloatBlock* block = &table.values[(static_cast<std::size_t>(y) * table.blocks + at / 48) * functions];
-        for (std::size_t k = 0; k < functions; ++k) block[k].lanes[at % 48] = static_cast<float>(sum[k]);
+        FloatBlock* block =
+            &table.values[(static_cast<std::size_t>(y) * table.blocks + at / FloatBlock::size) * functions];
+        for (std::size_t k = 0; k < functions; ++k)
+          block[k].lanes[at % FloatBlock::size] = static_cast<float>(sum[k]);
       }
     }
   }
@@ -173,40 +175,30 @@ void check_match(const FoldedTable& table, MapShape shape, int channels) {
 }
 
 void project_texels(const FoldedTable& table, const float* texels, ShCoefficients& out) {
-  const std::size_t functions = table.functions(), channels = table.channels;
-  std::vector<FloatBlock> sums(table.parts * functions), scratch(2 * static_cast<std::size_t>(table.blocks));
-  add_folded_rows(table, texels, scratch.data(), sums.data());
+  const int functions = table.functions(), channels = table.channels, moments = table.parts * functions;
+  std::vector<FloatBlock> memory(moments + functions + 2 * table.blocks);
+  FloatBlock *sums = memory.data(), *harmonics = sums + moments, *scratch = harmonics + functions;
+  add_folded_rows(table, texels, scratch, sums);
+  harmonics_of_moments(table, sums, harmonics);
   out.max_degree = table.max_degree;
-  out.channels = table.channels;
-  out.values.assign(functions * channels, 0.0);
-  for (std::size_t part = 0; part < static_cast<std::size_t>(table.parts); ++part) {
-    for (std::size_t k = 0; k < functions; ++k) {
-      std::array<double, 4> moment{};
-      const auto& lanes = sums[part * functions + k].lanes;
-      for (std::size_t j = 0; j < lanes.size(); ++j) moment[j % channels] += lanes[j];
-      for (std::size_t lm = 0; lm < functions; ++lm)
-        for (std::size_t c = 0; c < channels; ++c)
-          out.values[lm * channels + c] += table.basis[(part * functions + lm) * functions + k] * moment[c];
-    }
-  }
+  out.channels = channels;
+  out.values.assign(static_cast<std::size_t>(functions) * channels, 0.0);
+  for (int lm = 0; lm < functions; ++lm)
+    for (int j = 0; j < FloatBlock::size; j += channels)
+      for (int c = 0; c < channels; ++c) out.values[lm * channels + c] += harmonics[lm].lanes[j + c];
 }
 
 void synthesize_texels(const FoldedTable& table, const ShCoefficients& coefficients, float* texels) {
-  const std::size_t functions = table.functions(), channels = table.channels;
-  const std::size_t known = std::min(functions, sh_count(coefficients.max_degree));
-  std::vector<FloatBlock> factors(table.parts * functions);
-  for (std::size_t part = 0; part < static_cast<std::size_t>(table.parts); ++part) {
-    for (std::size_t k = 0; k < functions; ++k) {
-      std::array<double, 4> factor{};
-      for (std::size_t lm = 0; lm < known; ++lm)
-        for (std::size_t c = 0; c < channels; ++c)
-          factor[c] +=
-              table.basis[(part * functions + lm) * functions + k] * coefficients.values[lm * channels + c];
-      auto& lanes = factors[part * functions + k].lanes;
-      for (std::size_t j = 0; j < lanes.size(); ++j) lanes[j] = static_cast<float>(factor[j % channels]);
-    }
-  }
-  write_unfolded_rows(table, factors.data(), texels);
+  const int functions = table.functions(), channels = table.channels;
+  const int known = std::min(functions, static_cast<int>(sh_count(coefficients.max_degree)));
+  std::vector<FloatBlock> memory(functions + table.parts * functions);
+  FloatBlock *harmonics = memory.data(), *factors = harmonics + functions;
+  for (int lm = 0; lm < known; ++lm)
+    for (int j = 0; j < FloatBlock::size; j += channels)
+      for (int c = 0; c < channels; ++c)
+        harmonics[lm].lanes[j + c] = static_cast<float>(coefficients.values[lm * channels + c]);
+  factors_of_harmonics(table, harmonics, known, factors);
+  write_unfolded_rows(table, factors, texels);
 }
 
 void check_channels(const FoldedTable& table, const ShCoefficients& coefficients) {

@@ -19,7 +19,8 @@ namespace welkin {
 
 /// 48 numbers: whole pixels of 1, 2, 3 or 4 interleaved channels, and whole vector registers.
 struct alignas(64) FloatBlock {
-  std::array<float, 48> lanes{};
+  static constexpr int size = 48;
+  std::array<float, size> lanes{};
 };
 
 /// Functions tabulated over folded rows, each value repeated for every channel so that interleaved rows are used as
@@ -35,8 +36,8 @@ struct FoldedTable {
   int blocks = 0;      ///< FloatBlocks in a row
   int even = 0, odd = 0;
   std::vector<FloatBlock> values;
-  /// basis[(part * functions() + lm) * functions() + k]: Y_lm of a part = sum over k of this times function k.
-  std::vector<double> basis;
+  /// basis[(lm * parts + part) * functions() + k]: Y_lm on a part = sum over k of this times function k.
+  std::vector<float> basis;
 
   int functions() const { return even + odd; }
 };
