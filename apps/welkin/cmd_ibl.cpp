@@ -17,7 +17,6 @@
 #include "ibl_report.h"
 #include "json_text.h"
 #include "progress.h"
-#include "sh_json.h"
 #include "source_name.h"
 
 #include <welkin/envmap/ibl.h>
@@ -25,6 +24,7 @@
 #include <welkin/error.h>
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/output_file.h>
+#include <welkin/sh/forms/document.h>
 
 // welkin ibl: the main job. One environment in, a complete image-based-lighting set out, measured if asked for.
 
@@ -133,7 +133,7 @@ void write_set(const std::filesystem::path& directory, std::vector<IblFile>& fil
   std::vector<OutputFile> out;
   for (IblFile& file : files) out.push_back({directory / file.name, std::move(file.bytes)});
   out.push_back({directory / "sh.json",
-                 bytes_of(sh_json_text(sh_to_json(set.radiance_sh, ShQuantity::radiance, source)))});
+                 bytes_of(write_sh({set.radiance_sh, ShQuantity::radiance, source}, ShForm::json))});
   out.push_back({directory / "preview.png", encode_png(make_preview(set))});
   out.push_back({directory / "index.html", bytes_of(make_report_html(manifest))});
   out.push_back({directory / "manifest.json", bytes_of(json_text(manifest) + "\n")});

@@ -1,67 +1,168 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <fstream>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "commands.h"
 #include "environment_options.h"
-#include "sh_json.h"
 #include "source_name.h"
 
+#include <welkin/envmap/sky/sky.h>
+#include <welkin/error.h>
 #include <welkin/image/output_file.h>
+#include <welkin/sh/algebra.h>
+#include <welkin/sh/forms/document.h>
 
-// welkin sh: spherical-harmonic coefficients of an environment, with their conventions named.
+// welkin sh: spherical-harmonic coefficients of an environment, or of a file of coefficients in any form, with their
+// conventions named, in the form that an engine reads.
 
 namespace welkin {
 namespace {
 
 struct ShCommand {
   EnvironmentInput in;
-  int degree = 2;
-  std::string quantity = "radiance";
-  std::string json_path;
+  std::optional<int> degree;            // 2 for an environment, as it is for a file
+  std::optional<std::string> quantity;  // radiance for an environment, as it is for a file
+  std::string form, form_in, output, json_path;
 };
 
-void print_table(const ShCoefficients& coefficients) {
+std::vector<std::string> form_names() {
+  std::vector<std::string> names;
+  for (ShForm form : all_sh_forms) names.emplace_back(sh_form_name(form));
+  return names;
+}
+
+// An engine's form fixes its quantity and its degree; asking for others is a misunderstanding.
+void check_usage(const ShCommand& command) {
+  if (command.form.empty()) {
+    if (!command.output.empty()) throw CLI::ValidationError("-o", "needs --form: which form shall it have?");
+    return;
+  }
+  if (command.form == "json") return;
+  if (command.quantity)
+    throw CLI::ValidationError("--quantity",
+                               "is fixed by --form " + command.form + "; only json has a choice");
+  if (command.degree && *command.degree != 2)
+    throw CLI::ValidationError("--degree", "is 2 in --form " + command.form + "; only json has a choice");
+}
+
+bool is_coefficient_file(const ShCommand& command) {
+  if (!command.form_in.empty()) return true;
+  if (is_sky_spec(command.in.input)) return false;
+  std::ifstream file(command.in.input, std::ios::binary);
+  std::vector<std::uint8_t> beginning(4096);
+  file.read(reinterpret_cast<char*>(beginning.data()), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(file.gcount()));
+  return looks_like_sh(beginning);
+}
+
+ShDocument load_coefficients(const ShCommand& command) {
+  const EnvironmentOptions& options = command.in.options;
+  if (options.rotate_degrees != 0 || options.mirror || !command.in.mapping.empty())
+    throw CLI::ValidationError("--mapping, --rotate and --mirror",
+                               "are for environments; this is a file of coefficients");
+  std::optional<ShForm> bare_form;
+  if (!command.form_in.empty()) bare_form = parse_sh_form(command.form_in);
+  ShDocument document = read_sh_file(command.in.input, bare_form);
+  if (document.source.empty()) document.source = source_name(command.in.input);
+  return document;
+}
+
+ShDocument project(const ShCommand& command) {
+  const Environment environment = load(command.in);
+  for (const std::string& warning : environment.warnings)
+    fmt::print(stderr, "welkin: {}: warning: {}\n", environment.source, warning);
+  return {project_equirect(environment.radiance, command.degree.value_or(2)), ShQuantity::radiance,
+          source_name(environment.source)};
+}
+
+// The degree and the quantity that were asked for.
+void transform(ShDocument& document, const ShCommand& command) {
+  ShCoefficients& coefficients = document.coefficients;
+  if (command.degree && *command.degree > coefficients.max_degree)
+    throw Error(command.in.input, fmt::format("has degree {}, less than --degree {}", coefficients.max_degree,
+                                              *command.degree));
+  if (command.degree) coefficients = resize(coefficients, *command.degree);
+  if (!command.quantity || *command.quantity == sh_quantity_name(document.quantity)) return;
+  const ShQuantity wanted = parse_sh_quantity(*command.quantity);
+  try {
+    coefficients = sh_of_quantity(sh_radiance_from(coefficients, document.quantity), wanted);
+  } catch (const Error& error) {
+    throw Error(command.in.input, error.what());
+  }
+  document.quantity = wanted;
+}
+
+void print_table(const ShDocument& document) {
+  fmt::print("{} of {}, real orthonormal basis without Condon-Shortley sign, polar axis z\n",
+             sh_quantity_name(document.quantity), document.source);
   fmt::print("{:>3} {:>4} {:>14} {:>14} {:>14}\n", "l", "m", "red", "green", "blue");
-  for (int l = 0; l <= coefficients.max_degree; ++l)
+  for (int l = 0; l <= document.coefficients.max_degree; ++l)
     for (int m = -l; m <= l; ++m) {
-      const double* c = &coefficients.values[sh_index(l, m) * 3];
+      const double* c = &document.coefficients.values[sh_index(l, m) * 3];
       fmt::print("{:>3} {:>4} {:>14.7g} {:>14.7g} {:>14.7g}\n", l, m, c[0], c[1], c[2]);
     }
 }
 
-void run(const ShCommand& command) {
-  const Environment environment = load(command.in);
-  for (const std::string& warning : environment.warnings)
-    fmt::print(stderr, "welkin: {}: warning: {}\n", environment.source, warning);
-  const ShQuantity quantity = parse_sh_quantity(command.quantity);
-  const ShCoefficients coefficients =
-      sh_of_quantity(project_equirect(environment.radiance, command.degree), quantity);
-  if (command.json_path.empty()) {
-    fmt::print("{} of {}, real orthonormal basis without Condon-Shortley sign, polar axis z\n",
-               command.quantity, environment.source);
-    print_table(coefficients);
-    return;
+void write(const ShDocument& document, const ShCommand& command) {
+  if (!command.json_path.empty()) return write_file(command.json_path, write_sh(document, ShForm::json));
+  if (command.form.empty()) return print_table(document);
+  const ShForm form = parse_sh_form(command.form);
+  if (form != ShForm::json && document.coefficients.max_degree > 2)
+    throw Error(command.in.input,
+                fmt::format("has degree {}, and --form {} holds degree 2; --degree 2 drops the rest",
+                            document.coefficients.max_degree, command.form));
+  const std::string text = write_sh(document, form);
+  if (command.output.empty()) {
+    fmt::print("{}", text);
+  } else {
+    write_file(command.output, text);
   }
-  write_file(command.json_path,
-             sh_json_text(sh_to_json(coefficients, quantity, source_name(environment.source))));
+}
+
+void run(const ShCommand& command) {
+  check_usage(command);
+  ShDocument document = is_coefficient_file(command) ? load_coefficients(command) : project(command);
+  transform(document, command);
+  write(document, command);
+}
+
+void add_sh_options(CLI::App& sub, ShCommand& command) {
+  sub.add_option("--degree", command.degree,
+                 "Largest degree l: (degree + 1)^2 coefficients; 2 for an environment")
+      ->check(CLI::Range(0, max_projection_degree));
+  sub.add_option("--quantity", command.quantity,
+                 "radiance (for an environment), irradiance or irradiance-over-pi")
+      ->check(CLI::IsMember({"radiance", "irradiance", "irradiance-over-pi"}));
+  sub.add_option(
+         "--form", command.form,
+         "Write what an engine reads in place of the table: three, babylon, filament, unity, unreal, godot, "
+         "c, glsl, hlsl, json (see docs/conventions.md)")
+      ->check(CLI::IsMember(form_names()));
+  sub.add_option("-o,--output", command.output, "Where the form goes; standard output unless given");
+  sub.add_option(
+         "--form-in", command.form_in,
+         "What the numbers of INPUT are, where it does not say so itself: a bare list of 27 numbers, or the "
+         "JSON of three or babylon")
+      ->check(CLI::IsMember(form_names()));
+  CLI::Option* json = sub.add_option("--json", command.json_path, "The same as --form json -o FILE");
+  json->excludes("--form")->excludes("--output");
 }
 
 }  // namespace
 
 void add_sh_command(CLI::App& app) {
   auto command = std::make_shared<ShCommand>();
-  CLI::App* sub = app.add_subcommand("sh", "Spherical-harmonic coefficients of an environment");
+  CLI::App* sub = app.add_subcommand(
+      "sh", "Spherical-harmonic coefficients of an environment, or of a coefficient file, for engines");
   add_environment_options(*sub, command->in);
-  sub->add_option("--degree", command->degree, "Largest degree l: (degree + 1)^2 coefficients")
-      ->check(CLI::Range(0, max_projection_degree))
-      ->capture_default_str();
-  sub->add_option("--quantity", command->quantity, "radiance, irradiance or irradiance-over-pi")
-      ->check(CLI::IsMember({"radiance", "irradiance", "irradiance-over-pi"}))
-      ->capture_default_str();
-  sub->add_option("--json", command->json_path, "Write a JSON file in place of the table");
-  sub->footer("Example: welkin sh park.hdr --degree 2 --quantity irradiance --json sh.json");
+  add_sh_options(*sub, *command);
+  sub->footer(
+      "INPUT can also be a file of coefficients: sh.json or any form that --form writes.\n"
+      "Example: welkin sh park.hdr --form unity -o WelkinSh.cs");
   sub->callback([command] { run(*command); });
 }
 

@@ -51,6 +51,7 @@ const std::vector<Confined> confined = {
     {"libpng", std::regex("(libpng[0-9]*/)?png.*\\.h"), std::regex("welkin/image/codecs/png[^/]*\\.cpp")},
     {"TurboJPEG", std::regex("(turbojpeg|jpeglib|jerror)\\.h"),
      std::regex("welkin/image/codecs/jpeg[^/]*\\.cpp")},
+    {"nlohmann-json", std::regex("nlohmann/.*"), std::regex("welkin/sh/forms/json_form\\.cpp|apps/.*")},
     {"kissfft", std::regex("(kissfft/)?kiss_?fft.*"), std::regex("welkin/sh/[^/]*\\.cpp")},
 };
 
@@ -180,6 +181,8 @@ TEST(Architecture, RulesRefuseAndAllowWhatTheyShould) {
   EXPECT_TRUE(refused("welkin/image/codecs/ldr.cpp", "png.h"));
   EXPECT_TRUE(refused("welkin/image/codecs/ldr.cpp", "turbojpeg.h"));
   EXPECT_TRUE(refused("apps/welkin/main.cpp", "Imath/ImathVec.h"));
+  EXPECT_TRUE(refused("welkin/sh/forms/json_form.h", "nlohmann/json.hpp"));
+  EXPECT_TRUE(refused("welkin/sh/forms/read_form.cpp", "nlohmann/json.hpp"));
 
   EXPECT_FALSE(refused("welkin/envmap/a.cpp", "welkin/parallel/parallel_for.h"));  // through sphere and image
   EXPECT_FALSE(refused("welkin/sh/a.h", "welkin/sh/basis.h"));
