@@ -34,6 +34,7 @@ double relative_error(const A& values, const B& truth) {
   return difference / largest;
 }
 
+// Batches are short, so that the median is of batches in which nobody else got the core.
 template <class Work>
 bench::Timing per_call(int runs, int calls, Work&& work) {
   bench::Timing time = bench::measure(runs, [&] {
@@ -75,7 +76,7 @@ void bench_methods(bench::Report& report, const std::string& source, const Spher
     for (TexelRule rule : {TexelRule::centre, TexelRule::integrated}) {
       const auto table = make_sh_projection_table(map->shape(), 2, 3, rule);
       ShCoefficients result;
-      const bench::Timing time = per_call(21, 100, [&] { project(table, *map, result); });
+      const bench::Timing time = per_call(501, 10, [&] { project(table, *map, result); });
       const bool centre = rule == TexelRule::centre;
       report.figure(name + (centre ? " 64, folded table" : " 64, folded, integrated"), time,
                     relative_error(result.values, own.values), centre ? 2e-2 : 1e-5,
@@ -178,14 +179,14 @@ void bench_round_trip(bench::Report& report, const std::string& source, const Sp
 
   ShCoefficients coefficients;
   Cube irradiance;
-  const bench::Timing forward = per_call(31, 200, [&] { project(to_sh, radiance, coefficients); });
-  const bench::Timing back = per_call(31, 200, [&] { synthesize(from_sh, coefficients, irradiance); });
-  const bench::Timing round = per_call(31, 200, [&] {
+  const bench::Timing forward = per_call(501, 10, [&] { project(to_sh, radiance, coefficients); });
+  const bench::Timing back = per_call(501, 10, [&] { synthesize(from_sh, coefficients, irradiance); });
+  const bench::Timing round = per_call(501, 10, [&] {
     project(to_sh, radiance, coefficients);
     synthesize(from_sh, convolve(coefficients, lobe), irradiance);
   });
   volatile double keep = 0;
-  const bench::Timing sum = per_call(31, 200, [&] { keep = plain_sum(radiance.texels); });
+  const bench::Timing sum = per_call(501, 10, [&] { keep = plain_sum(radiance.texels); });
   std::vector<double> brute;
   bench::Timing brute_time;
   brute_time.best = brute_time.median = bench::seconds_of([&] { brute = brute_force_irradiance(radiance); });

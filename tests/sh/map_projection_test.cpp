@@ -93,9 +93,9 @@ TEST(MapProjection, OfAConstantHasDegreeZeroOnly) {
   for (MapShape shape : {map_shape(Mapping::cube, 1), map_shape(Mapping::cube, 4),
                          map_shape(Mapping::dual_paraboloid, 1), map_shape(Mapping::dual_paraboloid, 12)}) {
     const SphereMap map = sphere_map_of(shape, 1, [](Vec3, int) { return 1; });
-    std::vector<double> truth(sh_count(8));
+    std::vector<double> truth(sh_count(20));
     truth[0] = std::sqrt(4 * pi);
-    EXPECT_LT(largest_difference(project_map(map, 8).values, truth), 1e-11);
+    EXPECT_LT(largest_difference(project_map(map, 20).values, truth), 1e-11);
   }
 }
 

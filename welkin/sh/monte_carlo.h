@@ -27,7 +27,8 @@ struct MonteCarloOptions {
 inline constexpr int low_discrepancy_runs = 16;
 
 /// A projection by sampling: coefficients as project_equirect gives them, and beside each value its standard error
-/// (same layout): the estimate's standard deviation, from the samples' own variance.
+/// (same layout): the estimate's standard deviation, from the samples' own variance. Light that no sample met, a small sun
+/// among few samples, is missing from both.
 struct MonteCarloProjection {
   ShCoefficients coefficients;
   std::vector<double> standard_errors;
