@@ -9,6 +9,7 @@
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/load.h>
 #include <welkin/parallel/parallel_for.h>
+#include <welkin/sh/forms/document.h>
 
 // A reader may return or throw welkin::Error, whatever the bytes; anything else is a finding. WELKIN_READER is the
 // function under test, e.g. decode_hdr.

@@ -10,8 +10,9 @@
 #include <welkin/image/codecs/ktx2.h>
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/output_file.h>
+#include <welkin/sh/forms/document.h>
 
-// Usage: fuzz_seeds FOLDER. Writes small valid files of every form into FOLDER/<reader>, and all of them into
+// Usage: fuzz_seeds FOLDER. Writes small valid files of every form into FOLDER/<reader>, and all images into
 // FOLDER/image, for the fuzzers to begin with.
 
 namespace welkin {
@@ -23,10 +24,11 @@ class SeedFolder {
  public:
   explicit SeedFolder(std::filesystem::path root) : root_(std::move(root)) {}
   void add(const std::string& reader, const std::string& name, const Bytes& bytes) const {
-    for (const std::string& folder : {reader, std::string("image")}) {
-      std::filesystem::create_directories(root_ / folder);
-      write_file(root_ / folder / name, bytes);
-    }
+    for (const std::string& folder : {reader, std::string("image")}) add_to(folder, name, bytes);
+  }
+  void add_to(const std::string& folder, const std::string& name, const Bytes& bytes) const {
+    std::filesystem::create_directories(root_ / folder);
+    write_file(root_ / folder / name, bytes);
   }
 
  private:
@@ -141,6 +143,15 @@ void add_textures(const SeedFolder& seeds) {
   }
 }
 
+void add_sh(const SeedFolder& seeds) {
+  ShDocument document{ShCoefficients(2, 3), ShQuantity::radiance, "seed"};
+  for (std::size_t i = 0; i < 27; ++i) document.coefficients.values[i] = static_cast<double>(i) / 8 - 1;
+  for (ShForm form : all_sh_forms) {
+    const std::string text = write_sh(document, form);
+    seeds.add_to("sh", std::string(sh_form_name(form)), Bytes(text.begin(), text.end()));
+  }
+}
+
 }  // namespace
 }  // namespace welkin
 
@@ -154,5 +165,6 @@ int main(int count, char** arguments) {
   welkin::add_exr(seeds);
   welkin::add_ldr(seeds);
   welkin::add_textures(seeds);
+  welkin::add_sh(seeds);
   return 0;
 }
