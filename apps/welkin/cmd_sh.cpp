@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -49,9 +50,12 @@ void check_usage(const ShCommand& command) {
     throw CLI::ValidationError("--degree", "is 2 in --form " + command.form + "; only json has a choice");
 }
 
+// By its first bytes. What is no regular file, a pipe, can be read only once: there --form-in decides.
 bool is_coefficient_file(const ShCommand& command) {
   if (!command.form_in.empty()) return true;
-  if (is_sky_spec(command.in.input)) return false;
+  std::error_code error;
+  if (is_sky_spec(command.in.input) || !std::filesystem::is_regular_file(command.in.input, error))
+    return false;
   std::ifstream file(command.in.input, std::ios::binary);
   std::vector<std::uint8_t> beginning(4096);
   file.read(reinterpret_cast<char*>(beginning.data()), static_cast<std::streamsize>(beginning.size()));

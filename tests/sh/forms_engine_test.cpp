@@ -179,6 +179,8 @@ struct Engine {
   Vec3 (*import)(Vec3);
   double over;  // what irradiance is divided by
 };
+void PrintTo(const Engine& engine, std::ostream* out) { *out << sh_form_name(engine.form); }
+
 const Engine engines[] = {
     {ShForm::three, three, as_it_is, 1},         {ShForm::babylon, babylon, babylon_import, pi},
     {ShForm::filament, filament, as_it_is, pi},  {ShForm::unity, unity, unity_import, pi},

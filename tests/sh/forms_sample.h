@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 #include <random>
 #include <span>
 #include <string>
@@ -11,6 +12,9 @@
 // Coefficients for the tests of the forms.
 
 namespace welkin {
+
+/// How GoogleTest names a form.
+inline void PrintTo(ShForm form, std::ostream* out) { *out << sh_form_name(form); }
 
 /// Nine random coefficients of three channels in [-1, 1], the first of them positive.
 inline ShDocument random_document(unsigned seed, int max_degree = 2) {
