@@ -141,12 +141,12 @@ void check_optimum(bench::Report& report, const std::vector<Probe>& probes) {
 void bench_kind(bench::Report& report, const std::string& kind, int least, int most) {
   report.note(fmt::format("-- {}: {} probes of three channels", kind, probe_count));
   const auto probes = make_probes(least, most, 7);
-  figure(
-      report, "degree 2 as it is", probes, [](const auto& f) { return f; }, 1, 0);
+  const double plain = figure(
+      report, "degree 2 as it is", probes, [](const auto& f) { return f; }, 1, 0, 0);
   const double window = figure(
       report, "weakest Laplacian window", probes,
       [](const auto& f) { return laplacian_windowed(f, weakest_laplacian(f, WindowScope::each_channel)); }, 1,
-      0);
+      plain, 0);
   figure(
       report, "non-negative fit", probes, [](const auto& f) { return nonnegative_fit(f); },
       most == 1 ? 0.35 * window : window, plain, window);

@@ -101,26 +101,25 @@ bool is_zero(const Nine& f) {
 }
 
 // t for a function that is proven non-negative with it; not a number where no proof is found.
-double find_proof(const Nine& f) {
+double find_proof(const Nine& f, const QuadricMinimum& minimum) {
   if (is_zero(f)) return 0;
-  const QuadricMinimum minimum = minimize_on_sphere(quadric_from_sh(f));
   // M - min + t J is semidefinite for t = -multiplier; the minimum itself is room, shared between both ends.
   const double t = -minimum.multiplier + 0.5 * minimum.value;
   return minimum.value >= 0 && proves_nonnegative(f, t) ? t : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Raises the constant as little as the proof needs. All other coefficients are rounded already.
-void lift_until_proven(NonnegativeFit& fit, CoefficientRounding rounding) {
+// Raises the constant as little as the proof needs. All other coefficients are rounded already; `minimum` and
+// `multiplier` (t) are those of the function as it is.
+void lift_until_proven(NonnegativeFit& fit, double minimum, double multiplier, CoefficientRounding rounding) {
   const double wanted = fit.coefficients[0];
-  const SphereQuadric quadric = quadric_from_sh(fit.coefficients);
-  const QuadricMinimum minimum = minimize_on_sphere(quadric);
-  double room = std::max(2.5 * rounding_margin(fit.coefficients, quadric, minimum.multiplier), 1e-320);
+  double room = std::max(
+      2.5 * rounding_margin(fit.coefficients, quadric_from_sh(fit.coefficients), multiplier), 1e-320);
   for (int attempt = 0; attempt < 60; ++attempt, room *= 2) {
     fit.coefficients[0] = round_nearest(wanted, rounding);
-    const double missing = (2 * room - minimum.value) / degree2::y00;
+    const double missing = (2 * room - minimum) / degree2::y00;
     if (fit.coefficients[0] < wanted + missing) fit.coefficients[0] = round_up(wanted + missing, rounding);
-    const double value = minimum.value + degree2::y00 * (fit.coefficients[0] - wanted);
-    fit.multiplier = -minimum.multiplier + 0.5 * value;
+    const double value = minimum + degree2::y00 * (fit.coefficients[0] - wanted);
+    fit.multiplier = multiplier + 0.5 * value;
     if (proves_nonnegative(fit.coefficients, fit.multiplier)) break;
   }
 }
@@ -139,15 +138,31 @@ NonnegativeFit finish(const Nine& projected, CoefficientRounding rounding) {
   fit.changed = true;
   fit.coefficients = rounded(projected, rounding);
   fit.coefficients[0] = projected[0];
-  lift_until_proven(fit, rounding);
+  const QuadricMinimum minimum = minimize_on_sphere(quadric_from_sh(fit.coefficients));
+  lift_until_proven(fit, minimum.value, -minimum.multiplier, rounding);
   fit.lift = fit.coefficients[0] - projected[0];
   return fit;
 }
 
-NonnegativeFit unchanged_or(const Nine& f, CoefficientRounding rounding) {
+// The same for doubles, with the t that the projection found: its minimum is 0 but for rounding, which a first lift
+// mostly covers. The general way serves where it does not.
+NonnegativeFit finish_unrounded(const Nine& projected, double multiplier) {
+  NonnegativeFit fit;
+  fit.changed = true;
+  fit.coefficients = projected;
+  const double margin = rounding_margin(projected, quadric_from_sh(projected), multiplier);
+  fit.lift = 5 * margin / degree2::y00;
+  fit.coefficients[0] += fit.lift;
+  fit.multiplier = multiplier + 2.5 * margin;
+  return proves_nonnegative(fit.coefficients, fit.multiplier) ? fit
+                                                              : finish(projected, CoefficientRounding::none);
+}
+
+NonnegativeFit unchanged_or(const Nine& f, CoefficientRounding rounding, QuadricMinimum& minimum) {
   NonnegativeFit fit;
   fit.coefficients = rounded(f, rounding);
-  fit.multiplier = find_proof(fit.coefficients);
+  minimum = minimize_on_sphere(quadric_from_sh(fit.coefficients));
+  fit.multiplier = find_proof(fit.coefficients, minimum);
   fit.changed = std::isnan(fit.multiplier);
   return fit;
 }
@@ -157,7 +172,8 @@ NonnegativeFit unchanged_or(const Nine& f, CoefficientRounding rounding) {
 // q = y00 f_0 + y1 v.(y, z, x) is >= 0 exactly where f_0 >= a |v|, a = y1 / y00 = sqrt(3): a circular cone. Its polar is
 // f_0 <= -|v| / a; between the two the nearest point lies on the ray of slope a over v/|v|.
 NonnegativeFit fit_degree1(const Nine& f, CoefficientRounding rounding) {
-  NonnegativeFit fit = unchanged_or(f, rounding);
+  QuadricMinimum minimum;
+  NonnegativeFit fit = unchanged_or(f, rounding, minimum);
   if (!fit.changed) return fit;
   const int exponent = exponent_of(f);
   Nine g = scaled(f, -exponent);
@@ -198,11 +214,20 @@ bool proves_nonnegative(std::span<const double, 9> coefficients, double multipli
 NonnegativeFit nonnegative_fit(std::span<const double, 9> coefficients, CoefficientRounding rounding) {
   Nine f;
   std::copy(coefficients.begin(), coefficients.end(), f.begin());
-  NonnegativeFit fit = unchanged_or(f, rounding);
+  QuadricMinimum minimum;
+  NonnegativeFit fit = unchanged_or(f, rounding, minimum);
   if (!fit.changed) return fit;
+  const bool as_it_is = rounding == CoefficientRounding::none;
+  if (!as_it_is) minimum = minimize_on_sphere(quadric_from_sh(f));
+  if (minimum.value >= 0) return finish(f, rounding);  // only the proof lacks room, or the rounding took it
   const int exponent = exponent_of(f);
-  const degree2::NearestNonnegative nearest = degree2::project_nonnegative(scaled(f, -exponent));
-  fit = finish(scaled(nearest.coefficients, exponent), rounding);
+  minimum.value = std::ldexp(minimum.value, -exponent);
+  minimum.multiplier = std::ldexp(minimum.multiplier, -exponent);
+  const degree2::NearestNonnegative nearest = degree2::project_nonnegative(scaled(f, -exponent), minimum);
+  const Nine projected = scaled(nearest.coefficients, exponent);
+  fit = as_it_is && !is_zero(projected)
+            ? finish_unrounded(projected, std::ldexp(nearest.multiplier, exponent))
+            : finish(projected, rounding);
   fit.iterations = nearest.iterations;
   fit.converged = nearest.converged;
   return fit;

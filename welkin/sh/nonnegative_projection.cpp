@@ -73,12 +73,13 @@ template <int K>
 struct Factor {
   std::array<Vec4, K> columns{};
   Nine q, p;  // p = q - f
-  double error;
+  double multiplier, error;
 
   Factor(const std::array<Vec4, K>& r, const Nine& f) : columns(r) {
     Mat4 s{};
     for (const Vec4& u : columns) add_square(u, s);
     q = sh_from_matrix(s);
+    multiplier = (s[0][0] + s[1][1] + s[2][2]) / 3;  // the rest of S has no trace there
     for (int i = 0; i < 9; ++i) p[i] = q[i] - f[i];
     error = 0.5 * dot9(p, p);
   }
@@ -203,12 +204,12 @@ NearestNonnegative descend(const std::array<Vec4, K>& start, const Nine& f, int 
   Step step = Step::taken;
   for (int i = 0; i < max_steps && step == Step::taken; ++i, ++iterations) step = newton_step(factor, f);
   const Mat4 x = moments(factor.p);
-  if (has_cholesky(x, tolerance)) return {factor.q, iterations, true};
+  if (has_cholesky(x, tolerance)) return {factor.q, factor.multiplier, iterations, true};
   Vec4 v;
   const double least = least_eigenvalue(x, v);
-  if (least >= -tolerance) return {factor.q, iterations, true};
+  if (least >= -tolerance) return {factor.q, factor.multiplier, iterations, true};
   if constexpr (K == 4) {
-    return {factor.q, iterations, false};
+    return {factor.q, factor.multiplier, iterations, false};
   } else {
     // Along S + a^2 v v^T the error changes by a^2 least + a^4 |q(v v^T)|^2 / 2.
     const Nine square = square_of(v);
@@ -300,10 +301,7 @@ bool has_cholesky(const Mat4& m, double shift) {
   return true;
 }
 
-NearestNonnegative project_nonnegative(const Nine& f) {
-  const SphereQuadric quadric = quadric_from_sh(f);
-  const QuadricMinimum minimum = minimize_on_sphere(quadric);
-  if (minimum.value >= 0) return {f, 0, true};
+NearestNonnegative project_nonnegative(const Nine& f, const QuadricMinimum& minimum) {
   Nine negated;
   for (int i = 0; i < 9; ++i) negated[i] = -f[i];
   if (has_cholesky(moments(negated), 0)) return {};
@@ -311,8 +309,9 @@ NearestNonnegative project_nonnegative(const Nine& f) {
   const double weight = -minimum.value / dot9(y, y);
   Nine one_zero;
   for (int i = 0; i < 9; ++i) one_zero[i] = f[i] + weight * y[i];
-  if (minimum_degree2(one_zero) >= -1e-13) return {one_zero, 0, true};
-  return descend<1>({first_column(f, quadric, minimum)}, f, 0);
+  const QuadricMinimum left = minimize_on_sphere(quadric_from_sh(one_zero));
+  if (left.value >= -1e-13) return {one_zero, -left.multiplier, 0, true};
+  return descend<1>({first_column(f, quadric_from_sh(f), minimum)}, f, 0);
 }
 
 }  // namespace welkin::degree2

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include <welkin/sh/minimum.h>
 #include <welkin/sh/nonnegative.h>
 
 // The projection onto the non-negative functions of degree 2: private to welkin/sh. See nonnegative.h.
@@ -12,12 +13,14 @@ using Mat4 = std::array<std::array<double, 4>, 4>;  // symmetric
 
 struct NearestNonnegative {
   Nine coefficients{};
+  double multiplier = 0;  // t of the S-lemma, to rounding
   int iterations = 0;
   bool converged = true;
 };
 
-/// f is scaled so that its largest coefficient is about 1. The result may be negative by some 1e-13.
-NearestNonnegative project_nonnegative(const Nine& f);
+/// f is scaled so that its largest coefficient is about 1, and `minimum` is its minimum, below 0. The result may be
+/// negative by some 1e-13.
+NearestNonnegative project_nonnegative(const Nine& f, const QuadricMinimum& minimum);
 
 /// Raises the constant until the function is proven non-negative; in nonnegative.cpp.
 NonnegativeFit prove_by_lifting(const Nine& coefficients);
