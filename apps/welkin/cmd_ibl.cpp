@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <chrono>
@@ -11,11 +12,14 @@
 
 #include "commands.h"
 #include "environment_options.h"
+#include "flat_file.h"
 #include "ibl_files.h"
 #include "ibl_manifest.h"
 #include "ibl_preview.h"
 #include "ibl_report.h"
 #include "json_text.h"
+#include "light_options.h"
+#include "lights_json.h"
 #include "progress.h"
 #include "source_name.h"
 
@@ -33,6 +37,7 @@ namespace {
 
 struct IblCommand {
   EnvironmentInput in;
+  LightInput lights;
   std::string output;
   IblOptions options;
   std::string kernel = "ggx", law = "linear", diffuse = "frequency";
@@ -126,11 +131,11 @@ class NewFolder {
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 
-// All files of the set, written only when everything is made.
+// All files of the set, written only when everything is made; `out` may hold others that belong with it.
 void write_set(const std::filesystem::path& directory, std::vector<IblFile>& files,
-               const nlohmann::ordered_json& manifest, const IblSet& set, const std::string& input) {
+               const nlohmann::ordered_json& manifest, const IblSet& set, const std::string& input,
+               std::vector<OutputFile> out) {
   const std::string source = source_name(input);
-  std::vector<OutputFile> out;
   for (IblFile& file : files) out.push_back({directory / file.name, std::move(file.bytes)});
   out.push_back({directory / "sh.json",
                  bytes_of(write_sh({set.radiance_sh, ShQuantity::radiance, source}, ShForm::json))});
@@ -174,6 +179,33 @@ void check(const IblCommand& command) {
   check_folder(command.output);
 }
 
+// The lights that were asked for, out of the environment.
+struct Taken {
+  std::optional<ExtractedLights> lights;
+  RecombinationErrors errors;
+};
+
+Taken take_lights(const Environment& environment, const LightInput& in) {
+  Taken taken;
+  if (!in.wanted()) return taken;
+  taken.lights = extract_lights(environment.radiance, in.options());
+  taken.errors = check_recombination(environment.radiance, *taken.lights);
+  const auto& left = taken.lights->residual.pixels;
+  if (std::all_of(left.begin(), left.end(), [](float v) { return v == 0; }))
+    throw Error(environment.source, "holds nothing but its lights; there is no map left to filter");
+  return taken;
+}
+
+void print_taken(const Taken& taken) {
+  print_lights(taken.lights->lights);
+  if (taken.lights->lights.empty()) return;
+  fmt::print(
+      "set and lights give the map's irradiance back to {:.1e} of its largest (lights as directions; as "
+      "discs "
+      "{:.1e})\n",
+      taken.errors.directional_max, taken.errors.disc_max);
+}
+
 void run(IblCommand command) {
   check(command);
   const auto start = std::chrono::steady_clock::now();
@@ -193,14 +225,16 @@ void run(IblCommand command) {
   for (const std::string& warning : environment.warnings)
     fmt::print(stderr, "welkin: {}: warning: {}\n", environment.source, warning);
 
+  const Taken taken = take_lights(environment, command.lights);
+  const Image& radiance = taken.lights ? taken.lights->residual : environment.radiance;
   ProgressLine progress("filtering " + environment.source);
   options.filter.progress = [&](double share) { progress.show(command.verify ? 0.3 * share : share); };
-  const IblSet set = make_ibl(environment.radiance, options);
+  const IblSet set = make_ibl(radiance, options);
   std::optional<IblErrors> errors;
   if (command.verify) {
     VerifyOptions verify = command.verify_options;
     verify.progress = [&](double share) { progress.show(0.3 + 0.7 * share); };
-    errors = verify_ibl(set, environment.radiance, options, verify);
+    errors = verify_ibl(set, radiance, options, verify);
   }
   for (std::size_t k = 1; k < set.levels.size(); ++k)
     if (!set.levels[k].report.bound_met)
@@ -216,14 +250,20 @@ void run(IblCommand command) {
                                 &options,
                                 &files,
                                 &errors,
+                                taken.lights ? &*taken.lights : nullptr,
+                                &taken.errors,
                                 load_seconds,
                                 seconds()};
   const nlohmann::ordered_json manifest = make_manifest(described);
-  write_set(command.output, files, manifest, set, environment.source);
+  std::vector<OutputFile> others;
+  if (!command.lights.residual.empty())
+    others.push_back({command.lights.residual, encode_flat(command.lights.residual, radiance)});
+  write_set(command.output, files, manifest, set, environment.source, std::move(others));
   if (command.json) {
     fmt::print("{}\n", json_text(manifest));
     return;
   }
+  if (taken.lights) print_taken(taken);
   print_levels(set, errors);
   if (errors) print_errors(*errors);
   print_files(files);
@@ -237,6 +277,7 @@ void add_ibl_command(CLI::App& app) {
   auto command = std::make_shared<IblCommand>();
   CLI::App* sub = app.add_subcommand("ibl", "Make a complete image-based-lighting set from an environment");
   add_environment_options(*sub, command->in);
+  add_light_options(*sub, command->lights);
   IblOptions& o = command->options;
   sub->add_option("-o,--output", command->output, "Folder for the set; made if it is missing")->required();
   sub->add_option("--size", o.size, "Texels along an edge of the largest level")
@@ -290,8 +331,11 @@ void add_ibl_command(CLI::App& app) {
   sub->add_flag("--json", command->json, "Print the manifest in place of the table");
   sub->footer(
       "Examples:\n  welkin ibl park.hdr -o park --verify\n  welkin ibl sky:day,elevation=20 -o day --size "
-      "512 --container dds");
-  sub->callback([command] { run(*command); });
+      "512 --container dds\n  welkin ibl park.hdr -o park --extract-sun");
+  sub->callback([command, sub] {
+    check_light_options(command->lights, *sub);
+    run(*command);
+  });
 }
 
 }  // namespace welkin

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lights_json.h"
 #include "source_name.h"
 
 #include <welkin/envmap/statistics.h>
@@ -113,6 +114,14 @@ Json make_manifest(const ManifestInput& in) {
   json["description"] = in.environment->description;
   json["orientation"] = {{"rotate_degrees", in.rotate_degrees}, {"mirror", in.mirror}};
   json["input"] = input_json(*in.environment);
+  if (in.lights) {
+    json["lights"] = lights_to_json(in.lights->lights);
+    json["lights_note"] =
+        "taken out of every map of this set: draw them beside it; irradiance of a surface = irradiance map + "
+        "sum of light irradiance * max(0, cos)";
+    if (in.recombination && !in.lights->lights.empty())
+      json["lights_error"] = recombination_to_json(*in.recombination);
+  }
   json["conventions"] = conventions_json();
   json["level_law"] = {{"name", name(in.options->law)},
                        {"formula", formula(in.options->law)},

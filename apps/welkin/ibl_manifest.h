@@ -6,11 +6,12 @@
 #include "ibl_files.h"
 
 #include <welkin/envmap/environment.h>
+#include <welkin/envmap/lights_check.h>
 #include <welkin/envmap/verify.h>
 
 namespace welkin {
 
-/// Everything that the manifest speaks of. Pointers are never null.
+/// Everything that the manifest speaks of. Pointers are never null but where said.
 struct ManifestInput {
   const Environment* environment = nullptr;
   double rotate_degrees = 0;
@@ -19,6 +20,8 @@ struct ManifestInput {
   const IblOptions* options = nullptr;
   const std::vector<IblFile>* files = nullptr;
   const std::optional<IblErrors>* errors = nullptr;
+  const ExtractedLights* lights = nullptr;             ///< null: none were asked for
+  const RecombinationErrors* recombination = nullptr;  ///< of the lights
   double load_seconds = 0, total_seconds = 0;
 };
 

@@ -243,6 +243,27 @@ std::string irradiance(const Json& manifest) {
   return facts(manifest, list);
 }
 
+std::string lights(const Json& manifest) {
+  static constexpr Column columns[] = {{"direction", "Direction (towards the light)"},
+                                       {"angular_radius_degrees", "Angular radius (degrees)"},
+                                       {"irradiance", "Irradiance of a surface that faces it"},
+                                       {"illuminance", "Illuminance"},
+                                       {"color", "Color"},
+                                       {"share", "Share of the map&#39;s flux"}};
+  static constexpr Fact errors[] = {
+      {"lights_error/as_directions/max", "Map against set and lights, as directions: largest", ""},
+      {"lights_error/as_directions/rms", "the same, RMS", ""},
+      {"lights_error/as_discs/max", "as discs of their radius: largest", ""},
+      {"lights_error/as_discs/rms", "the same, RMS", ""}};
+  const Json* list = find(manifest, "lights");
+  if (!list) return "";
+  if (list->empty()) return "<p>None: nothing in this map is compact and strong enough.</p>\n";
+  return "<p>These were taken out of the map, so they are in none of the files: draw them beside the set, as "
+         "directional lights.</p>\n" +
+         table(list, columns, "In the map&#39;s unit; errors are shares of the largest irradiance.") +
+         facts(manifest, errors);
+}
+
 std::string trilinear(const Json& manifest) {
   static constexpr Fact list[] = {{"trilinear/relative_rms", "Relative RMS", ""},
                                   {"trilinear/max_over_mean", "Largest error over the mean", ""}};
@@ -378,6 +399,7 @@ std::string make_report_html(const nlohmann::json& manifest) {
       source.empty() ? "" : source + " &middot; ", "image-based lighting", report_style);
   html += header(manifest) + "<main>\n" + pictures(manifest);
   html += section("Input", input(manifest));
+  html += section("Lights", lights(manifest));
   html += section("Files", files(manifest));
   html += section("Levels of the specular map", levels(manifest));
   html += section("Irradiance, spherical harmonics, DFG", irradiance(manifest));
