@@ -1,5 +1,6 @@
 #include "light_options.h"
 
+#include "environment_options.h"
 #include "flat_file.h"
 
 namespace welkin {
@@ -13,6 +14,7 @@ void add_light_options(CLI::App& sub, LightInput& in) {
       ->excludes(sun);
   sub.add_option("--light-radius", in.max_angular_radius,
                  "Largest angular radius of a source, in degrees; what is larger stays in the map")
+      ->check(must_be_finite)
       ->check(CLI::Range(0.05, 45.0))
       ->capture_default_str();
   sub.add_option("--residual", in.residual,
