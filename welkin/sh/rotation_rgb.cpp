@@ -12,7 +12,8 @@
 // Z(a) X(-90) Z(b) X(90) Z(c) as in rotation_zxzxz.cpp. The quarter turns have 71 non-zero entries to degree 5; they are
 // compile-time constants and the loops over them are unrolled by templates, so a set costs about 330 multiply-adds of
 // vectors and no look-ups. A vector holds one coefficient: its red, green and blue and, unpadded as the set is, the red
-// of the next one, which the next store overwrites. The same code on vectors of 16 does four sets at once.
+// of the next one, which the next store overwrites. (Four sets at once in vectors
+// of 16 are no faster: gathering and scattering them costs what the wider arithmetic saves.)
 
 #define WELKIN_INLINE inline __attribute__((always_inline))
 
@@ -22,8 +23,6 @@ namespace {
 constexpr int top_degree = max_rgb_rotation_degree;
 
 using One = float __attribute__((vector_size(16)));
-using Two = float __attribute__((vector_size(32)));
-using Four = float __attribute__((vector_size(64)));
 
 constexpr std::array<double, rotation::block_start(top_degree + 1)> make_quarter_turn_blocks() {
   std::array<double, rotation::block_start(top_degree + 1)> blocks{};
@@ -101,7 +100,7 @@ WELKIN_INLINE void turn_degree(const RgbTurn& turn, Vector* v) {
 // The last coefficient of a degree is read with the float before it and written without the one after it, so nothing
 // outside the set is touched, and sets may be rotated in place.
 template <int L>
-WELKIN_INLINE void load(const float* set, std::size_t, One* v) {
+WELKIN_INLINE void load(const float* set, One* v) {
   for (int k = 0; k < 2 * L; ++k) std::memcpy(&v[k], set + 3 * (L * L + k), sizeof(One));
   One shifted;
   std::memcpy(&shifted, set + 3 * (L * L + 2 * L) - 1, sizeof shifted);
@@ -109,65 +108,30 @@ WELKIN_INLINE void load(const float* set, std::size_t, One* v) {
 }
 
 template <int L>
-WELKIN_INLINE void store(const One* v, std::size_t, float* set) {
+WELKIN_INLINE void store(const One* v, float* set) {
   for (int k = 0; k < 2 * L; ++k) std::memcpy(set + 3 * (L * L + k), &v[k], sizeof(One));
   std::memcpy(set + 3 * (L * L + 2 * L), &v[2 * L], 3 * sizeof(float));
 }
 
-// The same for four sets that lie `stride` floats apart.
 template <int L>
-WELKIN_INLINE void load(const float* sets, std::size_t stride, Four* v) {
-  One parts[4][2 * L + 1];
-  for (int s = 0; s < 4; ++s) load<L>(sets + s * stride, stride, parts[s]);
-  for (int k = 0; k < 2 * L + 1; ++k) {
-    const Two low = __builtin_shufflevector(parts[0][k], parts[1][k], 0, 1, 2, 3, 4, 5, 6, 7);
-    const Two high = __builtin_shufflevector(parts[2][k], parts[3][k], 0, 1, 2, 3, 4, 5, 6, 7);
-    v[k] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  }
-}
-
-template <int L>
-WELKIN_INLINE void store(const Four* v, std::size_t stride, float* sets) {
-  One parts[4][2 * L + 1];
-  for (int k = 0; k < 2 * L + 1; ++k) {
-    parts[0][k] = __builtin_shufflevector(v[k], v[k], 0, 1, 2, 3);
-    parts[1][k] = __builtin_shufflevector(v[k], v[k], 4, 5, 6, 7);
-    parts[2][k] = __builtin_shufflevector(v[k], v[k], 8, 9, 10, 11);
-    parts[3][k] = __builtin_shufflevector(v[k], v[k], 12, 13, 14, 15);
-  }
-  for (int s = 0; s < 4; ++s) store<L>(parts[s], stride, sets + s * stride);
-}
-
-template <int L, class Vector>
-WELKIN_INLINE void rotate_degree(const RgbTurn& turn, std::size_t stride, const float* in, float* out) {
-  Vector v[2 * L + 1];
-  load<L>(in, stride, v);
+WELKIN_INLINE void rotate_degree(const RgbTurn& turn, const float* in, float* out) {
+  One v[2 * L + 1];
+  load<L>(in, v);
   turn_degree<L>(turn, v);
-  store<L>(v, stride, out);
+  store<L>(v, out);
 }
 
-template <class Vector>
-WELKIN_INLINE void rotate_degrees(const RgbTurn& turn, int max_degree, const float* in, float* out) {
-  const std::size_t stride = sh_rgb_size(max_degree);
-  for (std::size_t s = 0; s < sizeof(Vector) / sizeof(One); ++s)
-    std::memmove(out + s * stride, in + s * stride, 3 * sizeof(float));
-  if (max_degree >= 1) rotate_degree<1, Vector>(turn, stride, in, out);
-  if (max_degree >= 2) rotate_degree<2, Vector>(turn, stride, in, out);
-  if (max_degree >= 3) rotate_degree<3, Vector>(turn, stride, in, out);
-  if (max_degree >= 4) rotate_degree<4, Vector>(turn, stride, in, out);
-  if (max_degree >= 5) rotate_degree<5, Vector>(turn, stride, in, out);
-}
-
-WELKIN_TARGET_CLONES void rotate_set(const RgbTurn& turn, int max_degree, const float* in, float* out) {
-  rotate_degrees<One>(turn, max_degree, in, out);
-}
-
-WELKIN_TARGET_CLONES void rotate_fours(const RgbTurn& turn, int max_degree, std::size_t fours,
-                                       const float* in, float* out) {
-  for (; fours > 0; --fours) {
-    rotate_degrees<Four>(turn, max_degree, in, out);
-    in += 4 * sh_rgb_size(max_degree);
-    out += 4 * sh_rgb_size(max_degree);
+WELKIN_TARGET_CLONES void rotate_sets(const RgbTurn& turn, int max_degree, std::size_t sets, const float* in,
+                                      float* out) {
+  for (; sets > 0; --sets) {
+    std::memmove(out, in, 3 * sizeof(float));
+    if (max_degree >= 1) rotate_degree<1>(turn, in, out);
+    if (max_degree >= 2) rotate_degree<2>(turn, in, out);
+    if (max_degree >= 3) rotate_degree<3>(turn, in, out);
+    if (max_degree >= 4) rotate_degree<4>(turn, in, out);
+    if (max_degree >= 5) rotate_degree<5>(turn, in, out);
+    in += sh_rgb_size(max_degree);
+    out += sh_rgb_size(max_degree);
   }
 }
 
@@ -225,7 +189,7 @@ RgbTurn make_rgb_turn(const Mat3& rotation) {
 
 void rotate_rgb(const RgbTurn& turn, int max_degree, std::span<const float> in, std::span<float> out) {
   assert(sizes_fit(max_degree, in, out) && in.size() == sh_rgb_size(max_degree));
-  rotate_set(turn, max_degree, in.data(), out.data());
+  rotate_sets(turn, max_degree, 1, in.data(), out.data());
 }
 
 void rotate_rgb(const Mat3& rotation, int max_degree, std::span<const float> in, std::span<float> out) {
@@ -234,10 +198,7 @@ void rotate_rgb(const Mat3& rotation, int max_degree, std::span<const float> in,
 
 void rotate_rgb_sets(const RgbTurn& turn, int max_degree, std::span<const float> in, std::span<float> out) {
   assert(sizes_fit(max_degree, in, out));
-  const std::size_t size = sh_rgb_size(max_degree), sets = in.size() / size;
-  rotate_fours(turn, max_degree, sets / 4, in.data(), out.data());
-  for (std::size_t s = sets / 4 * 4; s < sets; ++s)
-    rotate_set(turn, max_degree, in.data() + s * size, out.data() + s * size);
+  rotate_sets(turn, max_degree, in.size() / sh_rgb_size(max_degree), in.data(), out.data());
 }
 
 void rotate_rgb_scalar(const RgbTurn& turn, int max_degree, std::span<const float> in, std::span<float> out) {

@@ -30,7 +30,7 @@ RgbTurn make_rgb_turn(const Mat3& rotation);
 void rotate_rgb(const RgbTurn& turn, int max_degree, std::span<const float> in, std::span<float> out);
 void rotate_rgb(const Mat3& rotation, int max_degree, std::span<const float> in, std::span<float> out);
 
-/// Rotates sets that follow each other, four at a time: in.size() is a multiple of sh_rgb_size(max_degree).
+/// Rotates sets that follow each other, all by the same turn: in.size() is a multiple of sh_rgb_size(max_degree).
 void rotate_rgb_sets(const RgbTurn& turn, int max_degree, std::span<const float> in, std::span<float> out);
 
 /// The same as rotate_rgb in plain loops: what the fast versions are tested against.
