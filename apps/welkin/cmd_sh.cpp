@@ -32,6 +32,7 @@ struct ShCommand {
 
 std::vector<std::string> form_names() {
   std::vector<std::string> names;
+  names.reserve(all_sh_forms.size());
   for (ShForm form : all_sh_forms) names.emplace_back(sh_form_name(form));
   return names;
 }

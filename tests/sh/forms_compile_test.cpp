@@ -59,9 +59,11 @@ int main(void) {
 TEST_F(FormCompiles, AsCAndGivesTheIrradiance) {
   write("form.h", write_sh(document_, ShForm::c));
   write("main.c", c_main);
-  const std::string flags = " -Wall -Wextra -Wpedantic -Wconversion -Werror main.c -o main && ./main";
-  for (const std::string language : {" -x c -std=c99", " -x c++ -std=c++11"}) {
-    std::istringstream output(run(WELKIN_COMPILER + language + flags));
+  for (const char* language : {" -x c -std=c99", " -x c++ -std=c++11"}) {
+    std::string command = WELKIN_COMPILER;
+    command += language;
+    command += " -Wall -Wextra -Wpedantic -Wconversion -Werror main.c -o main && ./main";
+    std::istringstream output(run(command));
     std::array<double, 3> truth;
     evaluate(sh_of_quantity(document_.coefficients, ShQuantity::irradiance_over_pi), {0.48, -0.6, 0.64},
              truth);
@@ -82,8 +84,11 @@ TEST_F(FormCompiles, AsGlsl) {
   const std::string main_function =
       "in vec3 n;\nout vec4 color;\n"
       "void main() { color = vec4(welkin_irradiance_over_pi(n) - welkin_irradiance_over_pi_4x4(n), 1.0); }\n";
-  for (const std::string version : {"#version 300 es\nprecision highp float;\n", "#version 330\n"}) {
-    write("form.frag", version + write_sh(document_, ShForm::glsl) + main_function);
+  for (const char* version : {"#version 300 es\nprecision highp float;\n", "#version 330\n"}) {
+    std::string shader = version;
+    shader += write_sh(document_, ShForm::glsl);
+    shader += main_function;
+    write("form.frag", shader);
     run(WELKIN_GLSLANG " form.frag");
   }
 }
