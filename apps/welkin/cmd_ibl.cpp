@@ -135,10 +135,7 @@ class NewFolder {
 void write_set(const std::filesystem::path& directory, std::vector<IblFile>& files,
                const nlohmann::ordered_json& manifest, const IblSet& set, const std::string& input,
                std::vector<OutputFile> out) {
-  const std::string source = source_name(input);
   for (IblFile& file : files) out.push_back({directory / file.name, std::move(file.bytes)});
-  out.push_back({directory / "sh.json",
-                 bytes_of(write_sh({set.radiance_sh, ShQuantity::radiance, source}, ShForm::json))});
   out.push_back({directory / "preview.png", encode_png(make_preview(set))});
   out.push_back({directory / "index.html", bytes_of(make_report_html(manifest))});
   out.push_back({directory / "manifest.json", bytes_of(json_text(manifest) + "\n")});
@@ -194,6 +191,16 @@ Taken take_lights(const Environment& environment, const LightInput& in) {
   if (std::all_of(left.begin(), left.end(), [](float v) { return v == 0; }))
     throw Error(environment.source, "holds nothing but its lights; there is no map left to filter");
   return taken;
+}
+
+std::string sh_text(const IblSet& set, const Environment& environment, const Taken& taken) {
+  ShDocument document;
+  document.coefficients = set.radiance_sh;
+  document.source = source_name(environment.source);
+  if (taken.lights)
+    for (const DirectionalLight& light : taken.lights->lights)
+      document.lights.push_back({light.direction, light.irradiance, light.angular_radius});
+  return write_sh(document, ShForm::json);
 }
 
 void print_taken(const Taken& taken) {
@@ -255,7 +262,8 @@ void run(IblCommand command) {
                                 load_seconds,
                                 seconds()};
   const nlohmann::ordered_json manifest = make_manifest(described);
-  std::vector<OutputFile> others;
+  std::vector<OutputFile> others{
+      {std::filesystem::path(command.output) / "sh.json", bytes_of(sh_text(set, environment, taken))}};
   if (!command.lights.residual.empty())
     others.push_back({command.lights.residual, encode_flat(command.lights.residual, radiance)});
   write_set(command.output, files, manifest, set, environment.source, std::move(others));

@@ -4,13 +4,21 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <numbers>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "commands.h"
 #include "environment_options.h"
+#include "flat_file.h"
+#include "light_options.h"
+#include "lights_json.h"
+#include "sh_fit.h"
 #include "source_name.h"
 
+#include <welkin/envmap/light_fit.h>
 #include <welkin/envmap/sky/sky.h>
 #include <welkin/error.h>
 #include <welkin/image/output_file.h>
@@ -25,6 +33,9 @@ namespace {
 
 struct ShCommand {
   EnvironmentInput in;
+  LightInput lights;
+  int fitted_lights = 0;
+  ShFitOptions fit;
   std::optional<int> degree;            // 2 for an environment, as it is for a file
   std::optional<std::string> quantity;  // radiance for an environment, as it is for a file
   std::string form, form_in, output, json_path;
@@ -39,6 +50,8 @@ std::vector<std::string> form_names() {
 
 // An engine's form fixes its quantity and its degree; asking for others is a misunderstanding.
 void check_usage(const ShCommand& command) {
+  if (command.fitted_lights > 0 && command.degree && *command.degree != 2)
+    throw CLI::ValidationError("--fit-lights", "is for degree 2");
   if (command.form.empty()) {
     if (!command.output.empty()) throw CLI::ValidationError("-o", "needs --form: which form shall it have?");
     return;
@@ -65,23 +78,58 @@ bool is_coefficient_file(const ShCommand& command) {
 }
 
 ShDocument load_coefficients(const ShCommand& command) {
-  const EnvironmentOptions& options = command.in.options;
-  if (options.rotate_degrees != 0 || options.mirror || !command.in.mapping.empty())
-    throw CLI::ValidationError("--mapping, --rotate and --mirror",
-                               "are for environments; this is a file of coefficients");
+  if (!command.in.mapping.empty() || command.lights.wanted() || command.fitted_lights > 0)
+    throw CLI::ValidationError("--mapping and lights", "need an environment; this is a file of coefficients");
   std::optional<ShForm> bare_form;
   if (!command.form_in.empty()) bare_form = parse_sh_form(command.form_in);
   ShDocument document = read_sh_file(command.in.input, bare_form);
   if (document.source.empty()) document.source = source_name(command.in.input);
+  try {
+    turn(document, command.in.options.rotate_degrees, command.in.options.mirror);
+  } catch (const Error& error) {
+    throw Error(command.in.input, error.what());
+  }
   return document;
+}
+
+void add_lights(ShDocument& document, std::span<const DirectionalLight> lights) {
+  for (const DirectionalLight& light : lights)
+    document.lights.push_back({light.direction, light.irradiance, light.angular_radius});
+}
+
+// The environment without the lights that were asked for; they go to the document.
+Image take_lights(const Environment& environment, const ShCommand& command, ShDocument& document) {
+  ExtractedLights extracted = extract_lights(environment.radiance, command.lights.options());
+  if (extracted.lights.empty())
+    fmt::print(stderr, "welkin: {}: warning: no light: nothing in it is compact and strong enough\n",
+               environment.source);
+  add_lights(document, extracted.lights);
+  std::error_code none;
+  if (std::filesystem::equivalent(command.lights.residual, environment.source, none))
+    throw Error(environment.source,
+                "is the input and would be overwritten; choose another name for --residual");
+  if (!command.lights.residual.empty())
+    write_file(command.lights.residual, encode_flat(command.lights.residual, extracted.residual));
+  return std::move(extracted.residual);
 }
 
 ShDocument project(const ShCommand& command) {
   const Environment environment = load(command.in);
   for (const std::string& warning : environment.warnings)
     fmt::print(stderr, "welkin: {}: warning: {}\n", environment.source, warning);
-  return {project_equirect(environment.radiance, command.degree.value_or(2)), ShQuantity::radiance,
-          source_name(environment.source)};
+  ShDocument document;
+  document.source = source_name(environment.source);
+  const int degree = command.degree.value_or(2);
+  if (command.fitted_lights > 0) {
+    LightFit fit = fit_lights(environment.radiance, command.fitted_lights);
+    add_lights(document, fit.lights);
+    document.coefficients = std::move(fit.rest);
+  } else if (command.lights.wanted()) {
+    document.coefficients = project_equirect(take_lights(environment, command, document), degree);
+  } else {
+    document.coefficients = project_equirect(environment.radiance, degree);
+  }
+  return document;
 }
 
 // The degree and the quantity that were asked for.
@@ -91,6 +139,11 @@ void transform(ShDocument& document, const ShCommand& command) {
     throw Error(command.in.input, fmt::format("has degree {}, less than --degree {}", coefficients.max_degree,
                                               *command.degree));
   if (command.degree) coefficients = resize(coefficients, *command.degree);
+  try {
+    apply_fit(document, command.fit);
+  } catch (const Error& error) {
+    throw Error(command.in.input, error.what());
+  }
   if (!command.quantity || *command.quantity == sh_quantity_name(document.quantity)) return;
   const ShQuantity wanted = parse_sh_quantity(*command.quantity);
   try {
@@ -101,15 +154,26 @@ void transform(ShDocument& document, const ShCommand& command) {
   document.quantity = wanted;
 }
 
+void print_lights(const ShDocument& document) {
+  if (document.lights.empty()) return;
+  fmt::print("lights beside the coefficients: direction, irradiance of a surface that faces it, radius\n");
+  for (const ShLight& l : document.lights)
+    fmt::print("{:>9.5f} {:>8.5f} {:>8.5f}   {:>11.6g} {:>11.6g} {:>11.6g}   {:.3f} degrees\n", l.direction.x,
+               l.direction.y, l.direction.z, l.irradiance[0], l.irradiance[1], l.irradiance[2],
+               l.angular_radius * 180 / std::numbers::pi);
+}
+
 void print_table(const ShDocument& document) {
   fmt::print("{} of {}, real orthonormal basis without Condon-Shortley sign, polar axis z\n",
              sh_quantity_name(document.quantity), document.source);
+  if (document.window != "none") fmt::print("against ringing: {}\n", document.window);
   fmt::print("{:>3} {:>4} {:>14} {:>14} {:>14}\n", "l", "m", "red", "green", "blue");
   for (int l = 0; l <= document.coefficients.max_degree; ++l)
     for (int m = -l; m <= l; ++m) {
       const double* c = &document.coefficients.values[sh_index(l, m) * 3];
       fmt::print("{:>3} {:>4} {:>14.7g} {:>14.7g} {:>14.7g}\n", l, m, c[0], c[1], c[2]);
     }
+  print_lights(document);
 }
 
 void write(const ShDocument& document, const ShCommand& command) {
@@ -136,6 +200,15 @@ void run(const ShCommand& command) {
 }
 
 void add_sh_options(CLI::App& sub, ShCommand& command) {
+  add_light_options(sub, command.lights);
+  sub.add_option(
+         "--fit-lights", command.fitted_lights,
+         "The best so many lights beside nine coefficients, for diffuse light alone: they need not be "
+         "where the map has sources")
+      ->check(CLI::Range(1, 8))
+      ->excludes("--extract-sun")
+      ->excludes("--extract-lights");
+  add_fit_options(sub, command.fit);
   sub.add_option("--degree", command.degree,
                  "Largest degree l: (degree + 1)^2 coefficients; 2 for an environment")
       ->check(CLI::Range(0, max_projection_degree));
@@ -167,8 +240,14 @@ void add_sh_command(CLI::App& app) {
   add_sh_options(*sub, *command);
   sub->footer(
       "INPUT can also be a file of coefficients: sh.json or any form that --form writes.\n"
-      "Example: welkin sh park.hdr --form unity -o WelkinSh.cs");
-  sub->callback([command] { run(*command); });
+      "Examples:\n  welkin sh park.hdr --form unity -o WelkinSh.cs\n"
+      "  welkin sh park.hdr --extract-sun --form three -o probe.json\n"
+      "  welkin sh studio.hdr --fit nonnegative --quantity irradiance --json sh.json");
+  sub->callback([command, sub] {
+    check_light_options(command->lights, *sub);
+    check_fit_options(command->fit, *sub);
+    run(*command);
+  });
 }
 
 }  // namespace welkin

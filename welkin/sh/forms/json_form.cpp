@@ -5,10 +5,13 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
 #include <vector>
 
 #include <welkin/error.h>
 #include <welkin/sh/forms/code_form.h>
+#include <welkin/sh/forms/light_lines.h>
 
 namespace welkin {
 namespace {
@@ -32,7 +35,7 @@ Json lines_of(std::string_view text) {
   return lines;
 }
 
-Json convention_of(ShQuantity quantity) {
+Json convention_of(ShQuantity quantity, const std::string& window) {
   const std::string name(sh_quantity_name(quantity));
   return {{"basis", "real, orthonormal over the sphere"},
           {"condon_shortley_sign", false},
@@ -44,9 +47,12 @@ Json convention_of(ShQuantity quantity) {
           {"cosine_applied", quantity != ShQuantity::radiance},
           {"one_over_pi_applied", quantity == ShQuantity::irradiance_over_pi},
           {"basis_constants_applied", false},
-          {"window", "none"},
+          {"window", window},
           {"evaluate", name + "(n) = sum over l, m of coefficient[l (l + 1) + m] * Y_lm(n)"}};
 }
+
+// As many digits as the coefficients have: the nearest double prints as short.
+double digits9(double value) { return std::stod(fmt::format("{:.9g}", value)); }
 
 std::string three_numbers(const double* c) { return fmt::format("{:.9g}, {:.9g}, {:.9g}", c[0], c[1], c[2]); }
 
@@ -61,13 +67,26 @@ std::string with_rows(const Json& head, const char* name, const char* brackets,
   return text + fmt::format("  {}\n}}\n", brackets[1]);
 }
 
+Json lights_of(const ShDocument& document, ShForm form) {
+  Json list = Json::array();
+  for (const ShLight& ours : document.lights) {
+    const ShLight l = turned(ours, form);
+    list.push_back(
+        {{"direction", {digits9(l.direction.x), digits9(l.direction.y), digits9(l.direction.z)}},
+         {"irradiance", {digits9(l.irradiance[0]), digits9(l.irradiance[1]), digits9(l.irradiance[2])}},
+         {"angular_radius_degrees", digits9(l.angular_radius * 180 / std::numbers::pi)}});
+  }
+  return list;
+}
+
 std::string write_json(const ShDocument& document) {
   Json head = {{"generator", generator},
                {"source", document.source},
                {"quantity", std::string(sh_quantity_name(document.quantity))},
                {"max_degree", document.coefficients.max_degree},
-               {"convention", convention_of(document.quantity)},
+               {"convention", convention_of(document.quantity, document.window)},
                {"color", "linear Rec. 709, [red, green, blue]"}};
+  if (!document.lights.empty()) head["lights"] = lights_of(document, ShForm::json);
   std::vector<std::string> rows;
   for (std::size_t i = 0; i < document.coefficients.values.size(); i += 3)
     rows.push_back(fmt::format("[{}]", three_numbers(&document.coefficients.values[i])));
@@ -119,13 +138,32 @@ std::string string_of(const Json& json, const char* key, std::string_view name) 
 // Coefficients of another convention would be read wrongly and nobody would see it.
 void check_convention(const Json& json, ShQuantity quantity, std::string_view name) {
   const Json& convention = member(json, "convention", name);
-  const Json expected = convention_of(quantity);
+  const Json expected = convention_of(quantity, "none");
   for (const char* key : {"condon_shortley_sign", "cosine_applied", "one_over_pi_applied",
                           "basis_constants_applied", "index", "polar_axis"}) {
     if (member(convention, key, name) != expected[key])
       refuse(name, fmt::format("has the convention \"{}\": {}, but {} of welkin has {}", key,
                                dump(convention[key]), sh_quantity_name(quantity), dump(expected[key])));
   }
+}
+
+std::vector<ShLight> read_lights(const Json& json, ShForm form, std::string_view name) {
+  if (!json.contains("lights")) return {};
+  const Json& list = json["lights"];
+  if (!list.is_array() || list.size() > max_sh_lights)
+    refuse(name, fmt::format("\"lights\" is not an array of at most {} lights", max_sh_lights));
+  std::vector<ShLight> lights;
+  for (const Json& row : list) {
+    ShLight light;
+    std::array<double, 3> direction{};
+    read_row(member(row, "direction", name), direction.data(), name);
+    read_row(member(row, "irradiance", name), light.irradiance.data(), name);
+    light.direction = {direction[0], direction[1], direction[2]};
+    light.angular_radius =
+        number_of(member(row, "angular_radius_degrees", name), name) * std::numbers::pi / 180;
+    lights.push_back(turned_back(checked(light, name), form));
+  }
+  return lights;
 }
 
 ShDocument read_json(const Json& json, std::string_view name) {
@@ -138,6 +176,9 @@ ShDocument read_json(const Json& json, std::string_view name) {
     refuse(name, error.what());
   }
   check_convention(json, document.quantity, name);
+  if (std::string window = string_of(json["convention"], "window", name); !window.empty())
+    document.window = std::move(window);
+  document.lights = read_lights(json, ShForm::json, name);
   const Json& degree = member(json, "max_degree", name);
   if (!degree.is_number_integer() || degree < 0 || degree > max_projection_degree)
     refuse(name, fmt::format("\"max_degree\" is not a whole number from 0 to {}", max_projection_degree));
@@ -190,10 +231,11 @@ ShForm form_of(const Json& json, std::string_view name, std::optional<ShForm> ba
 
 std::string write_sh_json(const ShDocument& document, ShForm form, const ShFormNumbers& numbers) {
   if (form == ShForm::json) return write_json(document);
-  const Json head = {{"generator", generator},
-                     {"form", std::string(sh_form_name(form))},
-                     {"source", document.source},
-                     {"comment", lines_of(about_form(form))}};
+  Json head = {{"generator", generator},
+               {"form", std::string(sh_form_name(form))},
+               {"source", document.source},
+               {"comment", lines_of(about_form(form))}};
+  if (!document.lights.empty()) head["lights"] = lights_of(document, form);
   std::vector<std::string> rows;
   for (std::size_t i = 0; i < 9; ++i) {
     const std::string row = three_numbers(&numbers[3 * i]);
@@ -211,7 +253,8 @@ ShDocument read_sh_json(std::string_view text, std::string_view name, std::optio
   if (form != ShForm::three && form != ShForm::babylon)
     refuse(name, fmt::format("is a JSON object, which the form {} is not", sh_form_name(form)));
   const ShFormNumbers numbers = form == ShForm::three ? read_three(json, name) : read_babylon(json, name);
-  return {from_sh_form(numbers, form), ShQuantity::radiance, string_of(json, "source", name)};
+  return {from_sh_form(numbers, form), ShQuantity::radiance, string_of(json, "source", name), "none",
+          read_lights(json, form, name)};
 }
 
 }  // namespace welkin

@@ -12,6 +12,7 @@
 #include <welkin/sh/forms/code_form.h>
 #include <welkin/sh/forms/document.h>
 #include <welkin/sh/forms/json_form.h>
+#include <welkin/sh/forms/light_lines.h>
 
 namespace welkin {
 namespace {
@@ -145,7 +146,8 @@ ShDocument read_sh_code(std::string_view text, std::string_view name, std::optio
   if (has_marks && (form == ShForm::three || form == ShForm::babylon))
     throw Error(name, "is not the JSON object that it says it is");
   const ShFormNumbers numbers = numbers_in(has_marks ? marked(text, name) : text, name);
-  return {from_sh_form(numbers, form), ShQuantity::radiance, line_after(text, "Source: ").value_or("")};
+  return {from_sh_form(numbers, form), ShQuantity::radiance, line_after(text, "Source: ").value_or(""),
+          "none", lights_in(text, form, name)};
 }
 
 void check_size(std::uintmax_t size, std::string_view name) {

@@ -7,6 +7,7 @@
 #include <welkin/sh/forms/code_form.h>
 #include <welkin/sh/forms/document.h>
 #include <welkin/sh/forms/json_form.h>
+#include <welkin/sh/forms/light_lines.h>
 
 namespace welkin {
 namespace {
@@ -41,16 +42,18 @@ std::string literal(double value, std::string_view suffix) {
   return text.append(suffix);
 }
 
-std::string header(ShForm form, const std::string& source, std::string_view about, std::string_view sign) {
-  return fmt::format("{} {}{}\n{} Source: {}\n", sign, sh_marker, sh_form_name(form), sign,
-                     printable(source)) +
-         commented(about, sign);
+std::string header(ShForm form, const ShDocument& document, std::string_view about, std::string_view sign) {
+  std::string text = fmt::format("{} {}{}\n{} Source: {}\n", sign, sh_marker, sh_form_name(form), sign,
+                                 printable(document.source));
+  if (document.window != "none")
+    text += fmt::format("{} Against ringing: {}\n", sign, printable(document.window));
+  return text + commented(about, sign) + light_lines(document.lights, form, sign);
 }
 
 std::string code_text(const ShDocument& document, ShForm form, const ShFormNumbers& numbers) {
   const CodeForm& code = code_form(form);
   const std::string_view blanks = code.open.substr(0, code.open.find_first_not_of(" \t"));
-  std::string text = header(form, document.source, code.about, code.comment);
+  std::string text = header(form, document, code.about, code.comment);
   text += fmt::format("\n{}{}{} {}\n", code.before, blanks, code.comment, begin_mark);
   const auto& names = form == ShForm::unreal || form == ShForm::godot ? harmonic_names : term_names;
   for (std::size_t i = 0; i < 9; ++i) {
@@ -68,7 +71,7 @@ std::string filament_text(const ShDocument& document, const ShFormNumbers& numbe
   for (std::size_t i = 0; i < 9; ++i)
     text += fmt::format("({:.9g}, {:.9g}, {:.9g}); // {}, irradiance, pre-scaled base\n", numbers[3 * i],
                         numbers[3 * i + 1], numbers[3 * i + 2], harmonic_names[i]);
-  return text + header(ShForm::filament, document.source, about_form(ShForm::filament), "//");
+  return text + header(ShForm::filament, document, about_form(ShForm::filament), "//");
 }
 
 }  // namespace
@@ -78,6 +81,7 @@ std::string write_sh(const ShDocument& document, ShForm form) {
   if (all.channels != 3) throw Error("coefficients of one channel have no engine form; three are needed");
   if (!std::all_of(all.values.begin(), all.values.end(), [](double c) { return std::isfinite(c); }))
     throw Error("coefficients that are not finite cannot be written");
+  for (const ShLight& light : document.lights) checked(light, document.source);
   if (form == ShForm::json) return write_sh_json(document, form, {});
   if (all.max_degree > 2)
     throw Error(fmt::format("the form {} holds degree 2, and these coefficients have degree {}",

@@ -1,0 +1,113 @@
+#include <welkin/sh/forms/light_lines.h>
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include <welkin/error.h>
+
+namespace welkin {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+// Reads "direction x y z irradiance r g b radius_degrees a".
+class LineReader {
+ public:
+  LineReader(std::string_view text, std::string_view name) : rest_(text), name_(name) {}
+
+  void word(std::string_view expected) {
+    skip();
+    if (!rest_.starts_with(expected)) refuse();
+    rest_.remove_prefix(expected.size());
+  }
+
+  double number() {
+    skip();
+    double value = 0;
+    const auto [next, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (error != std::errc()) refuse();
+    rest_.remove_prefix(static_cast<std::size_t>(next - rest_.data()));
+    return value;
+  }
+
+  void end() {
+    skip();
+    if (!rest_.empty()) refuse();
+  }
+
+ private:
+  void skip() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\r')) rest_.remove_prefix(1);
+  }
+  [[noreturn]] void refuse() const { throw Error(name_, "has a damaged line of a light"); }
+
+  std::string_view rest_, name_;
+};
+
+}  // namespace
+
+ShLight turned(const ShLight& light, ShForm form) {
+  ShLight out = light;
+  if (form != ShForm::json) out.direction = sh_form_axes(form) * light.direction;
+  return out;
+}
+
+ShLight turned_back(const ShLight& light, ShForm form) {
+  ShLight out = light;
+  if (form != ShForm::json) out.direction = transposed(sh_form_axes(form)) * light.direction;
+  return out;
+}
+
+ShLight checked(ShLight light, std::string_view name) {
+  const double size = length(light.direction);
+  if (!(std::abs(size - 1) <= 1e-3)) throw Error(name, "has a light whose direction is not of unit length");
+  light.direction = (1 / size) * light.direction;
+  for (double e : light.irradiance)
+    if (!(std::isfinite(e) && e >= 0))
+      throw Error(name, "has a light whose irradiance is not finite and >= 0");
+  if (!(light.angular_radius >= 0 && light.angular_radius <= std::numbers::pi / 2))
+    throw Error(name, "has a light whose angular radius is not 0 to 90 degrees");
+  return light;
+}
+
+std::string light_lines(const std::vector<ShLight>& lights, ShForm form, std::string_view sign) {
+  if (lights.empty()) return "";
+  std::string text = fmt::format(
+      "{} Lights that are not in the coefficients, in the same axes: add, for each, albedo / pi times "
+      "irradiance\n"
+      "{} times max(0, dot(normal, direction)).\n",
+      sign, sign);
+  for (const ShLight& ours : lights) {
+    const ShLight l = turned(ours, form);
+    text += fmt::format(
+        "{} {}direction {:.9g} {:.9g} {:.9g} irradiance {:.9g} {:.9g} {:.9g} radius_degrees {:.9g}\n", sign,
+        light_marker, l.direction.x, l.direction.y, l.direction.z, l.irradiance[0], l.irradiance[1],
+        l.irradiance[2], l.angular_radius / degree);
+  }
+  return text;
+}
+
+std::vector<ShLight> lights_in(std::string_view text, ShForm form, std::string_view name) {
+  std::vector<ShLight> lights;
+  for (std::size_t at = text.find(light_marker); at != std::string_view::npos;
+       at = text.find(light_marker, at)) {
+    at += light_marker.size();
+    LineReader line(text.substr(at, text.find('\n', at) - at), name);
+    ShLight light;
+    line.word("direction");
+    for (double* v : {&light.direction.x, &light.direction.y, &light.direction.z}) *v = line.number();
+    line.word("irradiance");
+    for (double& v : light.irradiance) v = line.number();
+    line.word("radius_degrees");
+    light.angular_radius = line.number() * degree;
+    line.end();
+    lights.push_back(turned_back(checked(light, name), form));
+    if (lights.size() > max_sh_lights) throw Error(name, "has too many lights");
+  }
+  return lights;
+}
+
+}  // namespace welkin
