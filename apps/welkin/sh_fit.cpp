@@ -73,7 +73,7 @@ void apply_fit(ShDocument& document, const ShFitOptions& options) {
     document.window = fmt::format("{}, width {:.9g}", options.name, options.width);
     return;
   }
-  if (document.coefficients.max_degree > 2 && options.name != "laplacian")
+  if (document.coefficients.max_degree > 2)
     throw Error(fmt::format("--fit {} is for degree 2", options.name));
   const ShQuantity quantity = document.quantity;
   const ShCoefficients irradiance =

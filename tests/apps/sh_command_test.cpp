@@ -101,7 +101,7 @@ TEST_F(ShCommandTest, DamagedFilesGetOneLineThatNamesThem) {
   write_text(at("list.json"), "[1, 2, 3]");
   expect_refused({"sh", "list.json"}, 1, "list.json: does not say what its numbers are");
   run_well({"sh", map, "--form", "hlsl", "-o", "a.hlsl"});
-  expect_refused({"sh", "a.hlsl", "--rotate", "20"}, 2, "file of coefficients");
+  expect_refused({"sh", "a.hlsl", "--mapping", "cube"}, 2, "file of coefficients");
 }
 
 }  // namespace

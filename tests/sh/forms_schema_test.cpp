@@ -49,6 +49,7 @@ bool reader_accepts(const Json& json) {
 ShDocument sample(int degree, ShQuantity quantity) {
   ShDocument document = random_document(1, degree);
   document.quantity = quantity;
+  if (degree == 2) document.lights = {{{0.6, 0, 0.8}, {1, 2, 3}, 0.01}};
   return document;
 }
 
@@ -91,6 +92,11 @@ TEST(ShSchema, AndTheReaderRefuseWhatIsNot) {
       {"another axis", [](Json& j) { j["convention"]["polar_axis"] = "y"; }},
       {"constants", [](Json& j) { j["convention"]["basis_constants_applied"] = true; }},
       {"a source that is none", [](Json& j) { j["source"] = 1; }},
+      {"lights that are none", [](Json& j) { j["lights"] = 1; }},
+      {"a light without irradiance", [](Json& j) { j["lights"][0].erase("irradiance"); }},
+      {"a light that darkens", [](Json& j) { j["lights"][0]["irradiance"][1] = -1; }},
+      {"a direction too long", [](Json& j) { j["lights"][0]["direction"][0] = 2; }},
+      {"a radius of half the sphere", [](Json& j) { j["lights"][0]["angular_radius_degrees"] = 180; }},
       {"no word of the cosine", [](Json& j) { j["convention"].erase("cosine_applied"); }},
       {"a list", [](Json& j) { j = Json::array({j}); }}};
   const Json good = Json::parse(write_sh(sample(2, ShQuantity::radiance), ShForm::json));

@@ -28,7 +28,7 @@ struct ShDocument {
   ShQuantity quantity = ShQuantity::radiance;
   std::string source;           ///< what they were made of, e.g. "park.hdr"; any bytes
   std::string window = "none";  ///< what was done against ringing, e.g. "hann, width 3", "non-negative fit"
-  std::vector<ShLight> lights;  ///< beside the coefficients, strongest first; at most max_sh_lights
+  std::vector<ShLight> lights{};  ///< beside the coefficients, strongest first; at most max_sh_lights
 };
 
 /// Larger files are no coefficient files: degree 128 takes under 1 MB.

@@ -1,0 +1,141 @@
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "command_test.h"
+
+#include <welkin/envmap/environment.h>
+#include <welkin/envmap/light_fit.h>
+#include <welkin/sh/forms/document.h>
+#include <welkin/sh/minimum.h>
+#include <welkin/sh/nonnegative.h>
+#include <welkin/sh/rotation.h>
+
+// welkin sh: fits, lights and turns.
+
+namespace welkin {
+namespace {
+
+// One texel: irradiance from nine coefficients is negative behind it.
+const std::string lamp = "sky:texel,size=64x32";
+
+class ShFitCommandTest : public CommandTest {
+ protected:
+  ShDocument document(const std::string& name) const { return read_sh_file(at(name)); }
+
+  void expect_refused(const Arguments& arguments, int exit_code, const std::string& why) const {
+    const RunResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << testing::PrintToString(arguments);
+    EXPECT_EQ(line_count(result.err), 1u) << result.err;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+    EXPECT_TRUE(files_below(at("")).empty());
+  }
+};
+
+std::array<double, 9> channel(const ShCoefficients& c, std::size_t k) {
+  std::array<double, 9> out{};
+  for (std::size_t i = 0; i < 9; ++i) out[i] = c.values[3 * i + k];
+  return out;
+}
+
+TEST_F(ShFitCommandTest, TheNonnegativeFitCarriesItsProof) {
+  run_well({"sh", lamp, "--quantity", "irradiance", "--json", "plain.json"});
+  run_well({"sh", lamp, "--quantity", "irradiance", "--fit", "nonnegative", "--json", "fit.json"});
+  const ShDocument plain = document("plain.json"), fit = document("fit.json");
+  std::istringstream words(fit.window.substr(fit.window.find("multipliers") + 11));
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_LT(minimum_degree2(channel(plain.coefficients, c)), -1e-3 * plain.coefficients.values[c]);
+    EXPECT_GE(minimum_degree2(channel(fit.coefficients, c)), 0);
+    double multiplier = 0;
+    ASSERT_TRUE(words >> multiplier) << fit.window;
+    EXPECT_TRUE(proves_nonnegative(channel(fit.coefficients, c), multiplier));
+  }
+}
+
+TEST_F(ShFitCommandTest, EveryFitChangesTheCoefficientsAndSaysSo) {
+  run_well({"sh", lamp, "--json", "plain.json"});
+  const ShDocument plain = document("plain.json");
+  for (const std::string name : {"nonnegative", "zh3-nonnegative", "hann", "lanczos", "laplacian"}) {
+    run_well({"sh", lamp, "--fit", name, "--json", name + ".json"});
+    const ShDocument fit = document(name + ".json");
+    EXPECT_NE(fit.window, "none") << name;
+    EXPECT_EQ(fit.quantity, ShQuantity::radiance);
+    EXPECT_GT(std::abs(fit.coefficients.values[6 * 3] - plain.coefficients.values[6 * 3]),
+              1e-3 * plain.coefficients.values[0])
+        << name;
+    const ShCoefficients irradiance = sh_of_quantity(fit.coefficients, ShQuantity::irradiance);
+    // hann and lanczos of width 3 leave something negative; the rest nine digits' rounding.
+    const double least = name == "hann" || name == "lanczos" ? -0.2 : -1e-8;
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_GE(minimum_degree2(channel(irradiance, c)), least * irradiance.values[c]) << name;
+  }
+  // One lamp is zonal: ZH3 loses nothing.
+  run_well({"sh", lamp, "--fit", "zh3", "--json", "zh3.json"});
+  const ShDocument zh3 = document("zh3.json");
+  for (std::size_t i = 0; i < 27; ++i)
+    EXPECT_NEAR(zh3.coefficients.values[i], plain.coefficients.values[i],
+                1e-4 * plain.coefficients.values[0]);
+}
+
+TEST_F(ShFitCommandTest, AFileTurnsAsItsEnvironmentDoes) {
+  const std::string map = "sky:day,size=64x32";
+  const Arguments turns[] = {{"--rotate", "45"}, {"--mirror"}, {"--rotate", "-90", "--mirror"}};
+  run_well({"sh", map, "--extract-sun", "--degree", "3", "--json", "plain.json"});
+  for (const Arguments& turned : turns) {
+    Arguments direct{"sh", map, "--extract-sun", "--degree", "3", "--json", "direct.json"};
+    Arguments later{"sh", "plain.json", "--json", "later.json"};
+    direct.insert(direct.end(), turned.begin(), turned.end());
+    later.insert(later.end(), turned.begin(), turned.end());
+    run_well(direct);
+    run_well(later);
+    const ShDocument a = document("direct.json"), b = document("later.json");
+    for (std::size_t i = 0; i < a.coefficients.values.size(); ++i)  // texels only move; nine digits
+      EXPECT_NEAR(a.coefficients.values[i], b.coefficients.values[i], 1e-6 * a.coefficients.values[0]) << i;
+    ASSERT_EQ(a.lights.size(), 1u);
+    ASSERT_EQ(b.lights.size(), 1u);
+    EXPECT_LT(length(a.lights[0].direction - b.lights[0].direction), 1e-6);
+  }
+}
+
+TEST_F(ShFitCommandTest, FittedLightsAreThoseOfTheLibrary) {
+  const std::string map = "sky:day,size=128x64";
+  run_well({"sh", map, "--fit-lights", "2", "--form", "unity", "-o", "probe.cs"});
+  const ShDocument written = document("probe.cs");
+  const LightFit fit = fit_lights(load_environment(map).radiance, 2);
+  ASSERT_EQ(written.lights.size(), fit.lights.size());
+  for (std::size_t i = 0; i < fit.lights.size(); ++i)
+    EXPECT_LT(length(written.lights[i].direction - fit.lights[i].direction), 1e-8);
+  for (std::size_t i = 0; i < 27; ++i)
+    EXPECT_NEAR(written.coefficients.values[i], fit.rest.values[i], 1e-7 * std::abs(fit.rest.values[0]));
+}
+
+TEST_F(ShFitCommandTest, WithoutASunThereIsAWarning) {
+  const RunResult result = run({"sh", "sky:overcast,size=64x32", "--extract-sun"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("no light"), std::string::npos);
+}
+
+TEST_F(ShFitCommandTest, MisuseIsRefused) {
+  expect_refused({"sh", lamp, "--fit", "best"}, 2, "--fit");
+  expect_refused({"sh", lamp, "--window-width", "2"}, 2, "--window-width");
+  expect_refused({"sh", lamp, "--fit", "hann", "--window-width", "nan"}, 2, "--window-width");
+  expect_refused({"sh", lamp, "--fit", "nonnegative", "--degree", "4"}, 1, "degree 2");
+  expect_refused({"sh", lamp, "--fit-lights", "2", "--degree", "4"}, 2, "--fit-lights");
+  expect_refused({"sh", lamp, "--fit-lights", "2", "--extract-sun"}, 2, "--fit-lights");
+  expect_refused({"sh", lamp, "--residual", "a.exr"}, 2, "--residual");
+}
+
+TEST_F(ShFitCommandTest, CoefficientsHaveNoLightsToTakeOut) {
+  run_well({"sh", lamp, "--json", "a.json"});
+  for (const Arguments& wrong : {Arguments{"--extract-sun"}, {"--fit-lights", "1"}, {"--mapping", "cube"}}) {
+    Arguments all{"sh", "a.json"};
+    all.insert(all.end(), wrong.begin(), wrong.end());
+    const RunResult result = run(all);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("file of coefficients"), std::string::npos) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace welkin
