@@ -169,8 +169,7 @@ void print(const bench::MapErrors& map) {
 
 // Of the random maps: mean RMS, and the worst of the others.
 bench::MapErrors summary(const std::vector<bench::MapErrors>& maps) {
-  bench::MapErrors out{fmt::format("{} random maps: mean RMS, largest of all, least of all", maps.size()),
-                       {}};
+  bench::MapErrors out{fmt::format("{} random maps (mean RMS, largest of all)", maps.size()), {}};
   for (std::size_t i = 0; i < method_names.size(); ++i) {
     bench::CoefficientErrors e;
     e.least = 1;
@@ -208,7 +207,8 @@ int run(const Arguments& arguments) {
   bench::Report report;
   std::vector<bench::MapErrors> maps, random;
   for (const std::string& name : arguments.maps) {
-    const std::string label = name.starts_with("sky:") ? name : std::filesystem::path(name).stem().string();
+    const std::string label = name.starts_with("sky:") ? name.substr(0, name.find(",size"))
+                                                       : std::filesystem::path(name).stem().string();
     maps.push_back(errors_of(label, load_environment(name).radiance, 600));
     print(maps.back());
   }
