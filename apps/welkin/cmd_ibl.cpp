@@ -133,10 +133,9 @@ class NewFolder {
 
 // All files of the set, written only when everything is made; `out` may hold others that belong with it.
 void write_set(const std::filesystem::path& directory, std::vector<IblFile>& files,
-               const nlohmann::ordered_json& manifest, const IblSet& set, const std::string& input,
+               const nlohmann::ordered_json& manifest, const std::string& input,
                std::vector<OutputFile> out) {
   for (IblFile& file : files) out.push_back({directory / file.name, std::move(file.bytes)});
-  out.push_back({directory / "preview.png", encode_png(make_preview(set))});
   out.push_back({directory / "index.html", bytes_of(make_report_html(manifest))});
   out.push_back({directory / "manifest.json", bytes_of(json_text(manifest) + "\n")});
   std::error_code none;
@@ -180,6 +179,10 @@ void check(const IblCommand& command) {
 struct Taken {
   std::optional<ExtractedLights> lights;
   RecombinationErrors errors;
+
+  std::span<const DirectionalLight> list() const {
+    return lights ? std::span<const DirectionalLight>(lights->lights) : std::span<const DirectionalLight>();
+  }
 };
 
 Taken take_lights(const Environment& environment, const LightInput& in) {
@@ -197,9 +200,8 @@ std::string sh_text(const IblSet& set, const Environment& environment, const Tak
   ShDocument document;
   document.coefficients = set.radiance_sh;
   document.source = source_name(environment.source);
-  if (taken.lights)
-    for (const DirectionalLight& light : taken.lights->lights)
-      document.lights.push_back({light.direction, light.irradiance, light.angular_radius});
+  for (const DirectionalLight& light : taken.list())
+    document.lights.push_back({light.direction, light.irradiance, light.angular_radius});
   return write_sh(document, ShForm::json);
 }
 
@@ -262,11 +264,12 @@ void run(IblCommand command) {
                                 load_seconds,
                                 seconds()};
   const nlohmann::ordered_json manifest = make_manifest(described);
-  std::vector<OutputFile> others{
-      {std::filesystem::path(command.output) / "sh.json", bytes_of(sh_text(set, environment, taken))}};
+  const std::filesystem::path folder = command.output;
+  std::vector<OutputFile> others{{folder / "sh.json", bytes_of(sh_text(set, environment, taken))},
+                                 {folder / "preview.png", encode_png(make_preview(set, taken.list()))}};
   if (!command.lights.residual.empty())
     others.push_back({command.lights.residual, encode_flat(command.lights.residual, radiance)});
-  write_set(command.output, files, manifest, set, environment.source, std::move(others));
+  write_set(command.output, files, manifest, environment.source, std::move(others));
   if (command.json) {
     fmt::print("{}\n", json_text(manifest));
     return;

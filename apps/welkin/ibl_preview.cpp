@@ -10,7 +10,9 @@
 
 #include <fmt/format.h>
 
+#include <welkin/brdf/ggx.h>
 #include <welkin/parallel/parallel_for.h>
+#include <welkin/sphere/cube.h>
 #include <welkin/sphere/cube_lookup.h>
 #include <welkin/sphere/equirect.h>
 
@@ -55,6 +57,8 @@ int tile_x(int index) { return margin + index * (tile + gap); }
 // What the spheres are lit by, and how bright they are shown.
 struct Light {
   const IblSet& set;
+  std::span<const DirectionalLight> lights;
+  const Cube& irradiance;  // of the set and the lights
   LevelLaw law;
   ToneMapOptions tone;
 };
@@ -75,13 +79,40 @@ double mirror_level(int size, double radius) {
   return std::max(0.0, 0.5 * std::log2(4 / (radius * radius) / texel) - 1.5);
 }
 
+// Reflected by a glossy surface from a light that the maps do not have. A light of radius a is seen in a mirror as a spot
+// that a lobe of alpha = a / 2 has too.
+void add_highlight(const DirectionalLight& light, const PreviewMaterial& material, Vec3 normal, float* rgb) {
+  const Vec3 view{0, 0, 1}, half = normalized(light.direction + view);
+  const double cos_light = dot(normal, light.direction);
+  if (!(cos_light > 0)) return;
+  const double own = material.perceptual_roughness * material.perceptual_roughness;
+  const double alpha = std::max(0.002, std::hypot(own, light.angular_radius / 2));
+  const double lobe = ggx_distribution(dot(normal, half), alpha) * ggx_visibility(normal.z, cos_light, alpha);
+  for (int c = 0; c < 3; ++c)
+    rgb[c] += static_cast<float>(fresnel_schlick(dot(view, half), material.f0[c]) * lobe * cos_light *
+                                 light.irradiance[c]);
+}
+
+// The set's irradiance with that of the lights.
+Cube lit(const Cube& irradiance, std::span<const DirectionalLight> lights) {
+  Cube sum = irradiance;
+  for (int face = 0; face < 6; ++face)
+    for (int y = 0; y < sum.size; ++y)
+      for (int x = 0; x < sum.size; ++x)
+        for (const DirectionalLight& light : lights) {
+          const auto part = disc_irradiance(light, cube_texel_direction(sum.size, face, x, y));
+          for (int c = 0; c < 3; ++c) sum.at(face, x, y)[c] += static_cast<float>(part[c]);
+        }
+  return sum;
+}
+
 void shade(const Light& light, const PreviewSphere& sphere, Vec3 normal, float* rgb) {
   const PreviewMaterial& material = sphere.material;
   const double cos_view = normal.z, roughness = material.perceptual_roughness;
   float diffuse[3] = {}, glossy[3] = {};
   const bool matt =
       std::any_of(material.albedo.begin(), material.albedo.end(), [](double a) { return a > 0; });
-  if (matt) look_up_cube(light.set.irradiance, normal, diffuse);
+  if (matt) look_up_cube(light.irradiance, normal, diffuse);
   DfgValue dfg;
   if (material.glossy) {
     const Vec3 reflected = 2 * cos_view * normal - Vec3{0, 0, 1};
@@ -98,6 +129,8 @@ void shade(const Light& light, const PreviewSphere& sphere, Vec3 normal, float* 
     const double let_through = (1 - reflectance) * material.albedo[c];
     rgb[c] = static_cast<float>(reflectance * glossy[c] + let_through * diffuse[c] / pi);
   }
+  if (material.glossy)
+    for (const DirectionalLight& extra : light.lights) add_highlight(extra, material, normal, rgb);
 }
 
 // A rectangle of the sheet that shows spheres before the environment.
@@ -203,9 +236,11 @@ void draw_title(ByteImage& sheet, const Light& light) {
   const int x = draw_text(sheet, margin, 24, 3, "welkin", accent) + gap;
   const double tenths = std::round(10 * light.tone.exposure_ev.value_or(0)) + 0.0;  // + 0: never minus zero
   const CubeMips& chain = light.set.specular;
+  const std::string beside =
+      light.lights.empty() ? "" : fmt::format(", lights beside the set: {}", light.lights.size());
   draw_text(sheet, x, 29, text_scale,
-            fmt::format("{} texels, {} levels, {}, exposure {:+.1f} EV", chain.size(), chain.levels.size(),
-                        name(light.law), tenths / 10),
+            fmt::format("{} texels, {} levels, {}, exposure {:+.1f} EV{}", chain.size(), chain.levels.size(),
+                        name(light.law), tenths / 10, beside),
             faint);
 }
 
@@ -269,7 +304,7 @@ LevelLaw level_law_of(const IblSet& set) {
   return best;
 }
 
-ToneMapOptions preview_tone(const IblSet& set) {
+ToneMapOptions preview_tone(const IblSet& set, std::span<const DirectionalLight> lights) {
   const auto exposure_of = [](const Cube& cube) {
     Image texels(cube.size, 6 * cube.size);
     texels.pixels = cube.texels;
@@ -277,7 +312,7 @@ ToneMapOptions preview_tone(const IblSet& set) {
   };
   std::size_t mip = 0;
   while (set.environment.levels[mip].size > 64 && mip + 1 < set.environment.levels.size()) ++mip;
-  const double by_irradiance = exposure_of(set.irradiance) + std::log2(pi);
+  const double by_irradiance = exposure_of(lit(set.irradiance, lights)) + std::log2(pi);
   ToneMapOptions tone;
   tone.exposure_ev = 0.5 + 0.75 * by_irradiance + 0.25 * exposure_of(set.environment.levels[mip]);
   tone.white = 6;
@@ -299,11 +334,12 @@ std::vector<PreviewSphere> preview_spheres(const IblSet& set) {
   return spheres;
 }
 
-ByteImage make_preview(const IblSet& set) {
+ByteImage make_preview(const IblSet& set, std::span<const DirectionalLight> lights) {
   assert(!set.specular.empty() && set.levels.size() == set.specular.levels.size() &&
          !set.environment.empty());
   assert(!set.irradiance.empty() && set.dfg.size > 0);
-  const Light light{set, level_law_of(set), preview_tone(set)};
+  const Cube irradiance = lit(set.irradiance, lights);
+  const Light light{set, lights, irradiance, level_law_of(set), preview_tone(set, lights)};
   const Layout layout = lay_out(set);
   const std::vector<PreviewSphere> spheres = preview_spheres(set);
   ByteImage sheet(sheet_width, layout.height);

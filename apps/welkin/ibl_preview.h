@@ -1,8 +1,10 @@
 #pragma once
 #include <array>
+#include <span>
 #include <vector>
 
 #include <welkin/envmap/ibl.h>
+#include <welkin/envmap/lights.h>
 #include <welkin/image/byte_image.h>
 #include <welkin/image/tonemap.h>
 
@@ -36,14 +38,15 @@ LevelLaw level_law_of(const IblSet& set);
 /// How the preview is shown, all of it alike: the Reinhard curve, and an exposure half a stop above a mean of those that tone_map would choose for
 /// irradiance / pi (three parts) and for the environment (one part). Irradiance says what lit things look like, however
 /// small the sun; the environment keeps a dark room with one lamp from turning all black.
-ToneMapOptions preview_tone(const IblSet& set);
+ToneMapOptions preview_tone(const IblSet& set, std::span<const DirectionalLight> lights = {});
 
 /// A contact sheet, RGB sRGB, 1280 pixels wide: every level of the specular chain as a panorama (the middle looks along
 /// +X, as in the equirectangular input), the spheres of preview_spheres, the irradiance / pi as a panorama, and the DFG
 /// table. Everything is made from the set alone, by the look-ups that a real-time renderer does. The camera at +Z is
 /// orthographic and looks along -Z with +Y up; behind the spheres is the glossy environment as a pinhole camera sees it.
 /// One exposure and tone curve for all but the DFG table, whose numbers are shown as they are.
+/// `lights` are those that were taken out of the set: they light the spheres, and are in none of the panoramas.
 /// The set is one that make_ibl returns (nothing in it is empty).
-ByteImage make_preview(const IblSet& set);
+ByteImage make_preview(const IblSet& set, std::span<const DirectionalLight> lights = {});
 
 }  // namespace welkin

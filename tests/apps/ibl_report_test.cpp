@@ -320,6 +320,34 @@ TEST(Preview, ConstantEnvironmentGivesTheReflectanceOfTheTable) {
     }
 }
 
+// A light that was taken out of the set: the matt sphere gets albedo/pi times its irradiance where it faces it, and
+// nothing on the other side.
+TEST(Preview, LightsBesideTheSetLightTheSpheres) {
+  const float radiance[] = {0.5f, 1.0f, 2.0f};
+  const IblSet set = small_set(constant_map(radiance[0], radiance[1], radiance[2]));
+  DirectionalLight light;
+  light.direction = {1, 0, 0};
+  light.irradiance = {6, 3, 1.5};
+  const ByteImage sheet = make_preview(set, {&light, 1});
+  const ToneMapOptions tone = preview_tone(set, {&light, 1});
+  const PreviewSphere matt = preview_spheres(set)[9];
+  for (double offset : {0.8, 0.3, -0.5}) {
+    const int x = static_cast<int>(matt.x + offset * matt.radius), y = static_cast<int>(matt.y);
+    const double cosine = std::max(0.0, (x + 0.5 - matt.x) / matt.radius);
+    Image pixel(1, 1);
+    for (int c = 0; c < 3; ++c)
+      pixel.pixels[c] = static_cast<float>(
+          0.8 * (static_cast<double>(radiance[c]) + cosine * light.irradiance[c] / std::numbers::pi));
+    const ByteImage expected = tone_map(pixel, tone);
+    // The irradiance cube is small: its interpolation is a per cent off.
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(sheet.at(x, y)[c], expected.pixels[c], 3) << offset;
+  }
+  // A glossy sphere has its highlight half way between light and camera.
+  const PreviewSphere metal = preview_spheres(set)[2];
+  const int x = static_cast<int>(metal.x + std::sqrt(0.5) * metal.radius), y = static_cast<int>(metal.y);
+  EXPECT_GT(sheet.at(x, y)[0], sheet.at(static_cast<int>(metal.x), y)[0] + 40);
+}
+
 // The camera stands at +Z: a mirror sphere shows a light from direction d where its normal is half way between d and
 // +Z. The lobe of a rough metal and the table shift it a little; the disc of the light and the texels (32 a face) are
 // some 0.05 radii.
