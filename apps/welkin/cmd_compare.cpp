@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,12 +13,12 @@
 #include <welkin/error.h>
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/compare.h>
-#include <welkin/image/load.h>
 #include <welkin/image/output_file.h>
 #include <welkin/sphere/cube.h>
 #include <welkin/sphere/equirect.h>
 
 #include "commands.h"
+#include "flat_file.h"
 #include "json_text.h"
 
 // welkin compare A B: how far A is from B, the reference; cubes level by level and face by face.
@@ -167,8 +168,21 @@ void write_difference(const CompareCommand& command, const LoadedImage& a, const
   write_file(command.difference_path, encode_png(difference_image(picture(a), picture(b))));
 }
 
+// Before any work: a name that says another format, and one that would overwrite what is compared.
+void check_difference(const CompareCommand& command) {
+  const std::string& path = command.difference_path;
+  if (path.empty()) return;
+  if (extension_of(path) != ".png")
+    throw CLI::ValidationError("--diff", "is written as PNG; give it a name that ends in .png");
+  std::error_code none;
+  for (const std::string& input : {command.a, command.b})
+    if (std::filesystem::equivalent(path, input, none))
+      throw Error(input, "is compared and would be overwritten; choose another name for --diff");
+}
+
 void run(const CompareCommand& command) {
-  const LoadedImage a = load_image(command.a), b = load_image(command.b);
+  check_difference(command);
+  const LoadedImage a = load_file_or_sky(command.a), b = load_file_or_sky(command.b);
   for (const auto& [path, image] : {std::pair(&command.a, &a), std::pair(&command.b, &b)}) {
     for (const std::string& warning : image->warnings) {
       fmt::print(stderr, "welkin: warning: {}: {}\n", *path, warning);
@@ -185,8 +199,8 @@ void run(const CompareCommand& command) {
 void add_compare_command(CLI::App& app) {
   auto command = std::make_shared<CompareCommand>();
   CLI::App* sub = app.add_subcommand("compare", "Measure how far an image or cube map is from a reference");
-  sub->add_option("A", command->a, "The file to judge")->required();
-  sub->add_option("B", command->b, "The reference, of the same size and kind")->required();
+  sub->add_option("A", command->a, "The file to judge, or sky:...")->required();
+  sub->add_option("B", command->b, "The reference, of the same size and kind, or sky:...")->required();
   sub->add_flag("--json", command->json, "Print JSON; null stands for infinity (the PSNR of equal images)");
   sub->add_flag("--solid-angle", command->solid_angle,
                 "Weigh pixels by their solid angle; flat images are taken as equirectangular");

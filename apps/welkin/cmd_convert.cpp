@@ -16,7 +16,6 @@
 #include <welkin/image/codecs/dds.h>
 #include <welkin/image/codecs/ktx2.h>
 #include <welkin/image/faults.h>
-#include <welkin/image/load.h>
 #include <welkin/image/output_file.h>
 #include <welkin/sphere/cube_layout.h>
 #include <welkin/sphere/cube_mips.h>
@@ -63,7 +62,7 @@ Mapping named_mapping(const std::string& name) {
 }
 
 LoadedImage load_with_warnings(const std::string& path) {
-  LoadedImage loaded = load_image(path);
+  LoadedImage loaded = load_file_or_sky(path);
   for (const std::string& warning : loaded.warnings) warn(path, warning);
   return loaded;
 }
@@ -254,7 +253,8 @@ void add_convert_command(CLI::App& app) {
   CLI::App* sub =
       app.add_subcommand("convert", "Change mapping, layout, size, orientation or format of a map");
   const CLI::IsMember mappings = is_mapping();
-  sub->add_option("input", command->input, "A map; sky_%s.hdr for six faces px .. nz, posx .. negz or 0 .. 5")
+  sub->add_option("input", command->input,
+                  "A map or sky:...; sky_%s.hdr for six faces px .. nz, posx .. negz or 0 .. 5")
       ->required();
   sub->add_option("-o,--output", command->output, "File to write: .hdr, .exr, .png, .ktx2 or .dds")
       ->required();

@@ -168,6 +168,9 @@ void check(const IblCommand& command) {
   if (command.container == "exr" && command.format == "rgb9e5")
     throw CLI::ValidationError("--format",
                                "OpenEXR has no rgb9e5; choose rgba16f or rgba32f, or another --container");
+  if (command.zstd_level > 0 && command.container != "ktx2")
+    throw CLI::ValidationError("--zstd",
+                               "is for --container ktx2; " + command.container + " has no such thing");
   const int most = std::bit_width(static_cast<unsigned>(command.options.size));
   if (command.options.levels > most)
     throw CLI::ValidationError("--levels",

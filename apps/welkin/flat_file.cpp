@@ -4,11 +4,13 @@
 
 #include <filesystem>
 
+#include <welkin/envmap/sky/sky.h>
 #include <welkin/error.h>
 #include <welkin/image/codecs/exr.h>
 #include <welkin/image/codecs/hdr.h>
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/faults.h>
+#include <welkin/image/load.h>
 #include <welkin/image/range_fit.h>
 #include <welkin/image/tonemap.h>
 
@@ -33,6 +35,14 @@ std::vector<std::uint8_t> encode_openexr(const Image& image) {
 }
 
 }  // namespace
+
+LoadedImage load_file_or_sky(const std::string& name) {
+  if (!is_sky_spec(name)) return load_image(name);
+  LoadedImage loaded;
+  loaded.format = "sky";
+  loaded.flat = make_sky(parse_sky(name));
+  return loaded;
+}
 
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();

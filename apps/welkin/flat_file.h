@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <welkin/image/image.h>
+#include <welkin/image/loaded_image.h>
 
 namespace welkin {
 
@@ -14,6 +15,9 @@ void check_flat_name(const std::string& path);
 /// OpenEXR gets half floats, and single ones when a value is beyond what half floats hold. Says on standard error
 /// what .hdr cannot hold (negative values).
 std::vector<std::uint8_t> encode_flat(const std::string& path, const Image& image);
+
+/// load_image, or make_sky where the name is a sky ("sky:day,elevation=20").
+LoadedImage load_file_or_sky(const std::string& name);
 
 /// The extension in lower case, with its dot.
 std::string extension_of(const std::string& path);

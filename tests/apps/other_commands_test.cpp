@@ -178,5 +178,35 @@ TEST_F(OtherCommandsTest, CompareMeasuresAKnownDifference) {
   EXPECT_EQ(read_text(at("d.png")).substr(1, 3), "PNG");
 }
 
+using SkyInputTest = CommandTest;
+
+TEST_F(SkyInputTest, ConvertAndCompareTakeASkyForAFile) {
+  const std::string sky = "sky:day,size=32x16";
+  run_well({"sky", "--kind", "day", "--size", "32x16", "-o", "made.exr"});
+  run_well({"convert", sky, "-o", "converted.exr"});
+  EXPECT_EQ(read_text(at("made.exr")), read_text(at("converted.exr")));
+  const auto same = nlohmann::json::parse(run_well({"compare", sky, sky, "--json"}));
+  EXPECT_EQ(same.dump().find("null") == std::string::npos, false);  // an infinite PSNR
+  const RunResult bad = run({"compare", "sky:moon", "made.exr"});
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_NE(bad.err.find("moon"), std::string::npos) << bad.err;
+}
+
+TEST_F(SkyInputTest, ADifferenceIsAPngAndOverwritesNoInput) {
+  run_well({"convert", "sky:day,size=32x16", "-o", "a.png"});
+  const std::string before = read_text(at("a.png"));
+  EXPECT_EQ(run({"compare", "a.png", "sky:day,size=32x16", "--diff", "d.jpg"}).exit_code, 2);
+  EXPECT_EQ(run({"compare", "a.png", "sky:day,size=32x16", "--diff", "./a.png"}).exit_code, 1);
+  EXPECT_EQ(read_text(at("a.png")), before);
+  EXPECT_FALSE(std::filesystem::exists(at("d.jpg")));
+}
+
+TEST_F(SkyInputTest, ZstandardIsForKtx2) {
+  const RunResult result =
+      run({"ibl", "sky:day,size=32x16", "-o", "set", "--size", "4", "--container", "dds", "--zstd", "3"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--zstd"), std::string::npos) << result.err;
+}
+
 }  // namespace
 }  // namespace welkin
