@@ -2,83 +2,85 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <vector>
+
+#include <welkin/envmap/laplace_solver.h>
 
 namespace welkin {
 namespace {
 
-using Neighbours = std::array<std::uint32_t, 4>;
-
-Neighbours neighbours_of(const Image& map, std::uint32_t texel) {
+// Beyond a pole lies the column half way round. An odd width has none there: such a texel is its own neighbour, so that
+// neighbours stay mutual.
+std::array<std::uint32_t, 4> neighbours_of(const Image& map, std::uint32_t texel) {
   const auto width = static_cast<std::uint32_t>(map.width), height = static_cast<std::uint32_t>(map.height);
-  const std::uint32_t x = texel % width, y = texel / width, across = (x + width / 2) % width;
+  const std::uint32_t x = texel % width, y = texel / width;
+  const std::uint32_t across = width % 2 == 0 ? (x + width / 2) % width : x;
   const auto index = [&](std::uint32_t i, std::uint32_t j) { return j * width + i; };
   return {index((x + width - 1) % width, y), index((x + 1) % width, y),
           y > 0 ? index(x, y - 1) : index(across, y), y + 1 < height ? index(x, y + 1) : index(across, y)};
 }
 
-struct Surroundings {
-  std::array<float, 3> mean{};
-  float largest = 0;
-  std::size_t count = 0;
+struct Hole {
+  std::vector<std::uint32_t> texels;  // ascending
+  std::vector<LaplaceTexel> unknowns;
+
+  Hole(const Image& map, std::span<const std::uint32_t> named) : texels(named.begin(), named.end()) {
+    std::sort(texels.begin(), texels.end());
+    unknowns.reserve(texels.size());
+    for (std::uint32_t t : texels) {
+      LaplaceTexel& unknown =
+          unknowns.emplace_back(LaplaceTexel{t % map.width, t / map.width, neighbours_of(map, t)});
+      for (std::uint32_t& n : unknown.neighbours) n = number_of(n);
+    }
+  }
+
+  std::uint32_t number_of(std::uint32_t texel) const {
+    const auto found = std::lower_bound(texels.begin(), texels.end(), texel);
+    return found != texels.end() && *found == texel ? static_cast<std::uint32_t>(found - texels.begin())
+                                                    : LaplaceTexel::known;
+  }
 };
 
-Surroundings look_around(const Image& map, std::span<const Neighbours> around,
-                         const std::vector<bool>& inside) {
-  Surroundings s;
-  std::array<double, 3> sum{};
-  for (const Neighbours& four : around)
-    for (std::uint32_t n : four) {
-      if (inside[n]) continue;
-      ++s.count;
-      for (int c = 0; c < 3; ++c) {
-        const float value = map.pixels[3 * std::size_t{n} + c];
-        sum[c] += static_cast<double>(value);
-        s.largest = std::max(s.largest, value);
-      }
-    }
-  for (int c = 0; c < 3; ++c)
-    s.mean[c] = static_cast<float>(sum[c] / static_cast<double>(std::max<std::size_t>(s.count, 1)));
-  return s;
-}
+struct Surroundings {
+  double mean = 0;
+  float least = 0, most = 0;
+  std::vector<double> sums;  // of each unknown's known neighbours
+};
 
-// One sweep of successive over-relaxation; returns the largest correction.
-float relax(Image& map, std::span<const std::uint32_t> texels, std::span<const Neighbours> around,
-            float factor) {
-  float largest = 0;
-  for (std::size_t i = 0; i < texels.size(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      float mean = 0;
-      for (std::uint32_t n : around[i]) mean += 0.25f * map.pixels[3 * std::size_t{n} + c];
-      float& value = map.pixels[3 * std::size_t{texels[i]} + c];
-      const float step = factor * (mean - value);
-      value = std::max(0.0f, value + step);
-      largest = std::max(largest, std::abs(step));
+Surroundings look_around(const Image& map, const Hole& hole, int channel) {
+  Surroundings s;
+  s.sums.resize(hole.texels.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < hole.texels.size(); ++i) {
+    const auto around = neighbours_of(map, hole.texels[i]);
+    for (int k = 0; k < 4; ++k) {
+      if (hole.unknowns[i].neighbours[k] != LaplaceTexel::known) continue;
+      const float value = map.pixels[3 * std::size_t{around[k]} + channel];
+      s.least = count == 0 ? value : std::min(s.least, value);
+      s.most = count == 0 ? value : std::max(s.most, value);
+      s.sums[i] += static_cast<double>(value);
+      s.mean += static_cast<double>(value);
+      ++count;
     }
-  return largest;
+  }
+  s.mean /= static_cast<double>(std::max<std::size_t>(count, 1));
+  return s;
 }
 
 }  // namespace
 
-// Over-relaxation with the factor that is best for a square of n x n unknowns, 2 / (1 + sin(pi / (n + 1))), takes about
-// n sweeps a digit (Young 1971).
 void inpaint(Image& equirect, std::span<const std::uint32_t> texels) {
-  std::vector<bool> inside(static_cast<std::size_t>(equirect.width) * equirect.height);
-  for (std::uint32_t t : texels) inside[t] = true;
-  std::vector<Neighbours> around;
-  around.reserve(texels.size());
-  for (std::uint32_t t : texels) around.push_back(neighbours_of(equirect, t));
-  const Surroundings s = look_around(equirect, around, inside);
-  if (s.count == 0) return;
-  for (std::uint32_t t : texels)
-    for (int c = 0; c < 3; ++c) equirect.pixels[3 * std::size_t{t} + c] = s.mean[c];
-  const double side = std::sqrt(static_cast<double>(texels.size()));
-  const auto factor = static_cast<float>(2 / (1 + std::sin(std::numbers::pi / (side + 1))));
-  const int most = 100 + static_cast<int>(20 * side);
-  for (int sweep = 0; sweep < most; ++sweep)
-    if (relax(equirect, texels, around, factor) <= 1e-5f * s.largest) break;
+  if (texels.empty() || texels.size() == static_cast<std::size_t>(equirect.width) * equirect.height) return;
+  const Hole hole(equirect, texels);
+  LaplaceSolver solver(hole.unknowns);
+  for (int c = 0; c < 3; ++c) {
+    const Surroundings s = look_around(equirect, hole, c);
+    std::vector<double> filled(hole.texels.size(), s.mean);
+    solver.solve(s.sums, 1e-5 * static_cast<double>(s.most), filled);
+    for (std::size_t i = 0; i < filled.size(); ++i)
+      equirect.pixels[3 * std::size_t{hole.texels[i]} + c] =
+          std::clamp(static_cast<float>(filled[i]), s.least, s.most);
+  }
 }
 
 }  // namespace welkin
