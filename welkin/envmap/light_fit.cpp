@@ -28,6 +28,9 @@ namespace {
 // A_l^2 falls with l^-5, so what is beyond leaves 1e-7 of E'.
 constexpr int top_degree = 40;
 
+// Of the mean irradiance: what nine coefficients miss by less is the transform's rounding, which no light should follow.
+constexpr double rounding = 1e-7;
+
 std::vector<double> squared_lobe() {
   std::vector<double> factors = cosine_lobe(top_degree);
   for (int l = 0; l <= top_degree; ++l) factors[l] = l < 4 ? 0 : factors[l] * factors[l];
@@ -68,7 +71,7 @@ class Fitter {
     for (;;) {
       const std::vector<double> w = solve(directions, right, used);
       const auto worst = std::min_element(w.begin(), w.end());
-      if (worst == w.end() || *worst >= 0) return w;
+      if (worst == w.end() || !(*worst < 0)) return w;
       used[worst - w.begin()] = false;
     }
   }
@@ -81,6 +84,17 @@ class Fitter {
     double sum = 0;
     for (std::size_t i = 0; i < w.size(); ++i) sum += w[i] * right[i];
     return sum;
+  }
+
+  // The squared error of luminance that these lights leave.
+  double left(const std::vector<DirectionalLight>& lights) const {
+    double sum = missed_;
+    for (const DirectionalLight& a : lights) {
+      sum -= 2 * a.illuminance * luminance(g(a.direction).data());
+      for (const DirectionalLight& b : lights)
+        sum += a.illuminance * b.illuminance * h(dot(a.direction, b.direction));
+    }
+    return std::max(0.0, sum);
   }
 
   // The direction that gains most beside those that are there, on a grid of about 3 degrees.
@@ -97,9 +111,10 @@ class Fitter {
     return best;
   }
 
-  // Compass search: each direction tries a step to four sides; steps halve when no try is better.
+  // Compass search: each direction tries a step to four sides; steps halve when no try is better by more than rounding.
   void climb(std::vector<Vec3>& directions) const {
     double here = gain(directions);
+    const double least = 1e-9 * missed_;
     for (double step = 0.03; step > 1e-4;) {
       bool moved = false;
       for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -110,7 +125,7 @@ class Fitter {
           const Vec3 kept = directions[i];
           directions[i] = normalized(start + step * way);
           const double there = gain(directions);
-          if (there > here)
+          if (there > here + least)
             here = there, moved = true;
           else
             directions[i] = kept;
@@ -196,14 +211,18 @@ LightFit fit_lights(const Image& equirect, int max_lights) {
   assert(equirect.channels == 3);
   if (max_lights < 1 || max_lights > 8) throw Error("the number of lights to fit must be 1 to 8");
   const Fitter fitter(equirect);
-  std::vector<Vec3> directions;
-  for (int i = 0; i < max_lights; ++i) {
-    directions.push_back(fitter.best_addition(directions));
-    fitter.climb(directions);
-  }
+  const double sphere = 4 * std::numbers::pi, flux = luminance(map_statistics(equirect).energy.data());
   LightFit fit;
-  const auto energy = map_statistics(equirect).energy;
-  fit.lights = make_lights(fitter, directions, luminance(energy.data()));
+  fit.error_before = std::sqrt(fitter.missed() / sphere);
+  if (fit.error_before > rounding * flux / 4) {  // the mean irradiance is flux / 4
+    std::vector<Vec3> directions;
+    for (int i = 0; i < max_lights; ++i) {
+      directions.push_back(fitter.best_addition(directions));
+      fitter.climb(directions);
+    }
+    fit.lights = make_lights(fitter, directions, flux);
+  }
+  fit.error = std::sqrt(fitter.left(fit.lights) / sphere);
   fit.rest = project_equirect(equirect, 2);
   std::array<double, 9> basis{};
   for (const DirectionalLight& light : fit.lights) {
@@ -211,9 +230,6 @@ LightFit fit_lights(const Image& equirect, int max_lights) {
     for (std::size_t i = 0; i < 9; ++i)
       for (int c = 0; c < 3; ++c) fit.rest.values[3 * i + c] -= light.irradiance[c] * basis[i];
   }
-  const double sphere = 4 * std::numbers::pi;
-  fit.error_before = std::sqrt(fitter.missed() / sphere);
-  fit.error = std::sqrt(std::max(0.0, fitter.missed() - fitter.gain(directions)) / sphere);
   return fit;
 }
 
