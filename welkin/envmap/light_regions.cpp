@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include <welkin/envmap/statistics.h>
 #include <welkin/sphere/equirect.h>
@@ -16,11 +17,10 @@ constexpr std::uint32_t none = UINT32_MAX;
 
 double luminance(const float* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
-// A connected component of the texels above the present threshold.
+// A connected component of the texels above the present threshold, as long as it is compact.
 struct Component {
   LightRegion region;
   double peak = 0;
-  bool compact = true;  // false: it has grown too large, and so has everything that it joins
 };
 
 class RegionFinder {
@@ -32,7 +32,7 @@ class RegionFinder {
     collect(floor);
     for (std::uint32_t i = 0; i < order_.size(); ++i) add(i);
     for (std::uint32_t i = 0; i < order_.size(); ++i)
-      if (parent_[i] == i) finish(components_[i], 0);
+      if (slot_[i] != none) finish(components_[slot_[i]], 0);
     std::stable_sort(found_.begin(), found_.end(),
                      [](const LightRegion& a, const LightRegion& b) { return a.flux > b.flux; });
     return std::move(found_);
@@ -55,7 +55,7 @@ class RegionFinder {
     rank_.assign(count, none);
     for (std::uint32_t i = 0; i < order_.size(); ++i) rank_[order_[i]] = i;
     parent_.assign(order_.size(), none);
-    components_.resize(order_.size());
+    slot_.assign(order_.size(), none);
   }
 
   std::uint32_t root(std::uint32_t i) {
@@ -81,43 +81,73 @@ class RegionFinder {
 
   double value(std::uint32_t texel) const { return luminance(&map_.pixels[3 * std::size_t{texel}]); }
 
-  void add_texel(LightRegion& region, std::uint32_t texel) const {
-    const int x = static_cast<int>(texel) % map_.width, y = static_cast<int>(texel) / map_.width;
+  void add_sums(LightRegion& region, std::uint32_t texel) const {
+    const int x = static_cast<int>(texel % map_.width), y = static_cast<int>(texel / map_.width);
     const double solid_angle = equirect_texel_solid_angle(map_.width, map_.height, y);
-    region.texels.push_back(texel);
     region.solid_angle += solid_angle;
     region.area_moment = region.area_moment + equirect_texel_moment(map_.width, map_.height, x, y);
     region.flux += value(texel) * solid_angle;
   }
 
-  // Lowers the threshold to the next texel. It joins the components beside it where the whole stays compact; else
-  // those that were compact until now are results.
-  void add(std::uint32_t i) {
-    neighbours(order_[i], beside_);
+  // The next texel with the components beside it, without their lists of texels.
+  Component joined(std::uint32_t texel) const {
     Component whole;
-    add_texel(whole.region, order_[i]);
-    const double luminance_here = whole.peak = value(order_[i]);
+    whole.peak = value(texel);
+    add_sums(whole.region, texel);
     for (std::uint32_t r : beside_) {
-      const Component& c = components_[r];
-      whole.compact = whole.compact && c.compact;
+      const Component& c = components_[slot_[r]];
       whole.peak = std::max(whole.peak, c.peak);
       whole.region.solid_angle += c.region.solid_angle;
       whole.region.area_moment = whole.region.area_moment + c.region.area_moment;
       whole.region.flux += c.region.flux;
     }
-    whole.compact =
-        whole.compact && luminance_here >= options_.edge_over_peak * whole.peak &&
-        equivalent_radius(whole.region.solid_angle, whole.region.area_moment) <= options_.max_angular_radius;
+    return whole;
+  }
+
+  bool is_compact(const Component& c, double luminance_here) const {
+    return luminance_here >= options_.edge_over_peak * c.peak &&
+           equivalent_radius(c.region.solid_angle, c.region.area_moment) <= options_.max_angular_radius;
+  }
+
+  // Lowers the threshold to the next texel. It joins the components beside it where the whole stays compact; else
+  // those that were compact until now are results.
+  void add(std::uint32_t i) {
+    const std::uint32_t texel = order_[i];
+    const double luminance_here = value(texel);
+    neighbours(texel, beside_);
+    bool compact =
+        std::all_of(beside_.begin(), beside_.end(), [&](std::uint32_t r) { return slot_[r] != none; });
+    Component whole;
+    if (compact) {
+      whole = joined(texel);
+      compact = is_compact(whole, luminance_here);
+    }
     parent_[i] = i;
     for (std::uint32_t r : beside_) {
-      if (whole.compact)
-        join(whole.region.texels, components_[r].region.texels);
-      else
-        finish(components_[r], luminance_here);
-      components_[r] = {};
       parent_[r] = i;
+      if (slot_[r] == none) continue;
+      Component& c = components_[slot_[r]];
+      if (compact)
+        join(whole.region.texels, c.region.texels);
+      else
+        finish(c, luminance_here);
+      c = {};
+      free_.push_back(std::exchange(slot_[r], none));
     }
-    components_[i] = std::move(whole);
+    if (!compact) return;
+    whole.region.texels.push_back(texel);
+    slot_[i] = keep(std::move(whole));
+  }
+
+  std::uint32_t keep(Component&& component) {
+    if (free_.empty()) {
+      components_.push_back(std::move(component));
+      return static_cast<std::uint32_t>(components_.size() - 1);
+    }
+    const std::uint32_t slot = free_.back();
+    free_.pop_back();
+    components_[slot] = std::move(component);
+    return slot;
   }
 
   // Small into large, so that no texel moves more than log n times.
@@ -126,13 +156,16 @@ class RegionFinder {
     into.insert(into.end(), from.begin(), from.end());
   }
 
-  // What a component had before the threshold came down to `luminance_here`: texels of just that luminance do not count,
-  // so that a flat area that is too large is not taken in pieces.
+  // What a component had before the threshold came down to `luminance_here`: texels of just that luminance do not
+  // count, so that a flat area that is too large is not taken in pieces.
   void finish(Component& c, double luminance_here) {
-    if (!c.compact || c.peak <= luminance_here) return;
+    if (c.peak <= luminance_here) return;
     LightRegion region;
     for (std::uint32_t texel : c.region.texels)
-      if (value(texel) > luminance_here) add_texel(region, texel);
+      if (value(texel) > luminance_here) {
+        add_sums(region, texel);
+        region.texels.push_back(texel);
+      }
     std::sort(region.texels.begin(), region.texels.end(),
               [&](std::uint32_t a, std::uint32_t b) { return rank_[a] < rank_[b]; });
     found_.push_back(std::move(region));
@@ -143,7 +176,9 @@ class RegionFinder {
   std::vector<std::uint32_t> order_;   // texels, brightest first
   std::vector<std::uint32_t> rank_;    // of every texel of the map: its place in order_
   std::vector<std::uint32_t> parent_;  // of the union-find, by rank
-  std::vector<Component> components_;  // by rank of the root
+  std::vector<std::uint32_t> slot_;    // by rank of a root: its component; none where it has grown too large
+  std::vector<Component> components_;
+  std::vector<std::uint32_t> free_;  // slots
   std::vector<std::uint32_t> beside_;
   std::vector<LightRegion> found_;
 };
