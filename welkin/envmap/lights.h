@@ -46,9 +46,10 @@ struct ExtractedLights {
 /// A source is a connected region brighter than all around it (light_regions.h), or several that lie close together
 /// (a sun behind a branch, the panes of a window), as long as the whole is no larger than max_angular_radius. When the
 /// map has no more of them, what is left is searched again: with two lights of up to 10 degrees, the second may be the
-/// glow about the sun. What is taken is the map minus its fill (inpaint.h), so that residual and taken light add up to the map exactly. With V_c the
-/// vector irradiance of channel c, the integral of taken radiance times direction, `direction` is that of the luminance
-/// of V, and irradiance[c] = dot(V_c, direction): exact for every normal that sees the whole source.
+/// glow about the sun. What is taken is the map minus its fill (inpaint.h), so that residual and taken light add up to
+/// the map exactly. With V_c the vector irradiance of channel c, the integral of taken radiance times direction,
+/// `direction` is that of the luminance of V, and irradiance[c] = dot(V_c, direction): exact for every normal that sees
+/// the whole source.
 ExtractedLights extract_lights(const Image& equirect, const LightOptions& options = {});
 
 }  // namespace welkin

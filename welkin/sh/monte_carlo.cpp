@@ -13,7 +13,7 @@ namespace welkin {
 namespace {
 
 constexpr double sphere_area = 4 * std::numbers::pi;
-constexpr std::size_t grain = 4096;
+constexpr std::size_t grain = 4096, batch = 64 * grain;
 
 // Archimedes: z and the azimuth of a uniform direction are independent and uniform.
 Vec3 uniform_direction(Point2 point) {
@@ -46,24 +46,29 @@ struct Moments {
   }
 };
 
+// In batches, so that memory does not grow with the samples; chunks are added in the same order whatever their batch.
 template <class Point>
 Moments sample(const RadianceFunction& radiance, int channels, int max_degree, std::uint64_t count,
                Point&& point) {
   const std::size_t functions = sh_count(max_degree);
-  auto partials =
-      parallel_partials<Moments>(count, grain, [&](Moments& moments, std::size_t begin, std::size_t end) {
-        moments = Moments(functions * channels);
-        std::vector<double> basis(functions), value(channels);
-        for (std::size_t i = begin; i < end; ++i) {
-          const Vec3 direction = uniform_direction(point(i));
-          radiance(direction, value);
-          evaluate_sh_basis(direction, max_degree, basis);
-          for (std::size_t k = 0; k < functions; ++k)
-            for (int c = 0; c < channels; ++c) moments.add(k * channels + c, basis[k] * value[c]);
-        }
-      });
-  for (std::size_t i = 1; i < partials.size(); ++i) partials[0].add(partials[i]);
-  return std::move(partials[0]);
+  Moments all(functions * channels);
+  for (std::uint64_t first = 0; first < count; first += batch) {
+    const std::size_t batch_count = std::min<std::uint64_t>(batch, count - first);
+    const auto partials = parallel_partials<Moments>(
+        batch_count, grain, [&](Moments& moments, std::size_t begin, std::size_t end) {
+          moments = Moments(functions * channels);
+          std::vector<double> basis(functions), value(channels);
+          for (std::size_t i = begin; i < end; ++i) {
+            const Vec3 direction = uniform_direction(point(first + i));
+            radiance(direction, value);
+            evaluate_sh_basis(direction, max_degree, basis);
+            for (std::size_t k = 0; k < functions; ++k)
+              for (int c = 0; c < channels; ++c) moments.add(k * channels + c, basis[k] * value[c]);
+          }
+        });
+    for (const Moments& moments : partials) all.add(moments);
+  }
+  return all;
 }
 
 // The mean of `count` independent values, scaled to the sphere, and the standard error of that mean.
