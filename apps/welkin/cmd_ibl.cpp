@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "commands.h"
 #include "environment_options.h"
@@ -139,6 +140,10 @@ void write_set(const std::filesystem::path& directory, std::vector<IblFile>& fil
   out.push_back({directory / "index.html", bytes_of(make_report_html(manifest))});
   out.push_back({directory / "manifest.json", bytes_of(json_text(manifest) + "\n")});
   std::error_code none;
+  std::set<std::filesystem::path> names;
+  for (const OutputFile& file : out)
+    if (!names.insert(std::filesystem::absolute(file.path).lexically_normal()).second)
+      throw Error(file.path.string(), "is a file of the set too; choose another name for --residual");
   for (const OutputFile& file : out)
     if (std::filesystem::equivalent(file.path, input, none))
       throw Error(input, "is the input and would be overwritten; choose another folder with -o");

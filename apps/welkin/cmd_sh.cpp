@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <numbers>
@@ -104,10 +103,6 @@ Image take_lights(const Environment& environment, const ShCommand& command, ShDo
     fmt::print(stderr, "welkin: {}: warning: no light: nothing in it is compact and strong enough\n",
                environment.source);
   add_lights(document, extracted.lights);
-  std::error_code none;
-  if (std::filesystem::equivalent(command.lights.residual, environment.source, none))
-    throw Error(environment.source,
-                "is the input and would be overwritten; choose another name for --residual");
   if (!command.lights.residual.empty())
     write_file(command.lights.residual, encode_flat(command.lights.residual, extracted.residual));
   return std::move(extracted.residual);
@@ -154,7 +149,7 @@ void transform(ShDocument& document, const ShCommand& command) {
   document.quantity = wanted;
 }
 
-void print_lights(const ShDocument& document) {
+void print_document_lights(const ShDocument& document) {
   if (document.lights.empty()) return;
   fmt::print("lights beside the coefficients: direction, irradiance of a surface that faces it, radius\n");
   for (const ShLight& l : document.lights)
@@ -173,7 +168,7 @@ void print_table(const ShDocument& document) {
       const double* c = &document.coefficients.values[sh_index(l, m) * 3];
       fmt::print("{:>3} {:>4} {:>14.7g} {:>14.7g} {:>14.7g}\n", l, m, c[0], c[1], c[2]);
     }
-  print_lights(document);
+  print_document_lights(document);
 }
 
 void write(const ShDocument& document, const ShCommand& command) {
@@ -194,6 +189,9 @@ void write(const ShDocument& document, const ShCommand& command) {
 
 void run(const ShCommand& command) {
   check_usage(command);
+  check_residual(command.lights, "the input", command.in.input);
+  check_residual(command.lights, "the output", command.output);
+  check_residual(command.lights, "the output", command.json_path);
   ShDocument document = is_coefficient_file(command) ? load_coefficients(command) : project(command);
   transform(document, command);
   write(document, command);

@@ -1,7 +1,11 @@
 #include "light_options.h"
 
+#include <filesystem>
+
 #include "environment_options.h"
 #include "flat_file.h"
+
+#include <welkin/error.h>
 
 namespace welkin {
 
@@ -19,6 +23,14 @@ void add_light_options(CLI::App& sub, LightInput& in) {
       ->capture_default_str();
   sub.add_option("--residual", in.residual,
                  "Write the map without the lights, filled from around: .hdr, .exr or .png (tone-mapped)");
+}
+
+void check_residual(const LightInput& in, const std::string& other, const std::string& path) {
+  if (in.residual.empty() || path.empty()) return;
+  std::error_code none;
+  const auto plain = [](const std::string& p) { return std::filesystem::absolute(p).lexically_normal(); };
+  if (plain(in.residual) == plain(path) || std::filesystem::equivalent(in.residual, path, none))
+    throw Error(in.residual, "is " + other + " too; choose another name for --residual");
 }
 
 void check_light_options(const LightInput& in, const CLI::App& sub) {

@@ -24,6 +24,9 @@ struct LightInput {
 
 void add_light_options(CLI::App& sub, LightInput& in);
 
+/// Throws Error when --residual is `other` ("the input", "-o") of that path: one would overwrite the other.
+void check_residual(const LightInput& in, const std::string& other, const std::string& path);
+
 /// Throws CLI::ValidationError for options that mean nothing without the lights, Error for a bad --residual.
 void check_light_options(const LightInput& in, const CLI::App& sub);
 

@@ -126,6 +126,22 @@ TEST_F(ShFitCommandTest, MisuseIsRefused) {
   expect_refused({"sh", lamp, "--residual", "a.exr"}, 2, "--residual");
 }
 
+TEST_F(ShFitCommandTest, TheResidualOverwritesNothing) {
+  run_well({"convert", "sky:day,size=64x32", "-o", "map.hdr"});
+  const auto before = files_below(at(""));
+  for (const Arguments& wrong :
+       {Arguments{"sh", "map.hdr", "--extract-sun", "--residual", "./map.hdr"},
+        {"sh", "map.hdr", "--extract-sun", "--residual", "r.hdr", "--form", "json", "-o", "./r.hdr"},
+        {"sh", "map.hdr", "--extract-sun", "--residual", "r.hdr", "--json", "r.hdr"},
+        {"ibl", "map.hdr", "--extract-sun", "--size", "4", "-o", "set", "--residual", "set/preview.png"},
+        {"ibl", "map.hdr", "--extract-sun", "--size", "4", "-o", "set", "--residual", "map.hdr"}}) {
+    const RunResult result = run(wrong);
+    EXPECT_EQ(result.exit_code, 1) << testing::PrintToString(wrong);
+    EXPECT_EQ(line_count(result.err), 1u) << result.err;
+    EXPECT_TRUE(files_below(at("")) == before) << testing::PrintToString(wrong);
+  }
+}
+
 TEST_F(ShFitCommandTest, CoefficientsHaveNoLightsToTakeOut) {
   run_well({"sh", lamp, "--json", "a.json"});
   for (const Arguments& wrong : {Arguments{"--extract-sun"}, {"--fit-lights", "1"}, {"--mapping", "cube"}}) {

@@ -190,6 +190,14 @@ TEST(FormTexts, ReadWhatCmgenWrites) {
             1e-13);
 }
 
+TEST(FormTexts, RefuseOddSignsAndBrackets) {
+  std::string list;
+  for (int i = 0; i < 26; ++i) list += "1 ";
+  expect_refused(list + "+-5", "damaged number", ShForm::unity);
+  expect_refused(")(" + list + "1", "bracket", ShForm::unity);
+  EXPECT_EQ(refusal([&] { read_sh_text(list + "+5", ShForm::unity); }), "");
+}
+
 TEST(FormTexts, ReadBareListsWhenToldTheirForm) {
   std::string plain, array = "[";
   const ShDocument document = random_document(10);
@@ -287,6 +295,24 @@ TEST(FormTexts, JsonHoldsAnyDegreeAndOthersRefuse) {
 }
 
 // A name of a file can be anything; it must not get out of its comment.
+TEST(FormTexts, NamesAreNoMarkers) {
+  for (const std::string name :
+       {"begin coefficients", "end coefficients.hdr", "welkin-light: x.hdr", "welkin-sh: c",
+        "welkin-light: direction 0 1 0 irradiance 9 9 9 radius_degrees 0",
+        "// welkin-light: direction 0 1 0 irradiance 9 9 9 radius_degrees 0", "pre-scaled base",
+        "Source: other", "# end coefficients"}) {
+    ShDocument document = random_document(16);
+    document.source = name;
+    document.window = name;
+    for (ShForm form : all_sh_forms) {
+      const ShDocument back = read_sh_text(write_sh(document, form));
+      EXPECT_LT(relative_difference(document.coefficients, back.coefficients), 1e-7) << name;
+      EXPECT_EQ(back.source, name) << sh_form_name(form);
+      EXPECT_TRUE(back.lights.empty()) << name;
+    }
+  }
+}
+
 TEST(FormTexts, NamesCannotBreakOut) {
   ShDocument document = random_document(15);
   document.source = "a\nint x;\\\x80\x1b*/";

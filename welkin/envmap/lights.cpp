@@ -174,6 +174,8 @@ bool extract_sources(double map_flux, const LightOptions& options, ExtractedLigh
 ExtractedLights extract_lights(const Image& equirect, const LightOptions& options) {
   assert(equirect.channels == 3);
   check(options);
+  if (static_cast<double>(equirect.width) * equirect.height >= 2147483648.0)
+    throw Error("lights are taken out of maps below 2^31 texels; this one has more");
   ExtractedLights result;
   result.residual = equirect;
   const double map_flux = luminance(map_statistics(equirect).energy);

@@ -41,7 +41,7 @@ struct ExtractedLights {
 };
 
 /// Takes the strongest compact sources out of an equirectangular map of 3 channels, finite and >= 0. Throws Error for
-/// options out of range.
+/// options out of range and for maps of 2^31 texels and more.
 ///
 /// A source is a connected region brighter than all around it (light_regions.h), or several that lie close together
 /// (a sun behind a branch, the panes of a window), as long as the whole is no larger than max_angular_radius. When the

@@ -190,6 +190,19 @@ sh[0] + sh[1] n.y + sh[2] n.z + sh[3] n.x + sh[4] n.y n.x + sh[5] n.y n.z + sh[6
 
 }  // namespace
 
+std::optional<std::string_view> comment_of(std::string_view line) {
+  const auto trim = [&] {
+    while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
+    while (!line.empty() && (line.back() == ' ' || line.back() == '\r')) line.remove_suffix(1);
+  };
+  trim();
+  const std::size_t sign = line.starts_with("//") ? 2 : line.starts_with("#") ? 1 : 0;
+  if (sign == 0) return {};
+  line.remove_prefix(sign);
+  trim();
+  return line;
+}
+
 const CodeForm& code_form(ShForm form) {
   switch (form) {
     case ShForm::c: return c_form;

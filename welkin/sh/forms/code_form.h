@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,10 @@ std::string_view about_form(ShForm form);
 
 /// GLSL: the three 4 x 4 matrices M of Ramamoorthi & Hanrahan 2001, equations 11 and 12, over pi.
 std::string glsl_matrices(const ShFormNumbers& numbers);
+
+/// What a line says that is nothing but a comment ("//" or "#", one blank, then this), without blanks around it; nothing
+/// for other lines. Markers count only where they begin such a comment, so that a file's name in it is no marker.
+std::optional<std::string_view> comment_of(std::string_view line);
 
 /// The marker that a file of ours has, followed by the name of its form.
 inline constexpr std::string_view sh_marker = "welkin-sh: ";

@@ -26,8 +26,8 @@ inline constexpr std::size_t max_sh_lights = 64;
 struct ShDocument {
   ShCoefficients coefficients;
   ShQuantity quantity = ShQuantity::radiance;
-  std::string source;           ///< what they were made of, e.g. "park.hdr"; any bytes
-  std::string window = "none";  ///< what was done against ringing, e.g. "hann, width 3", "non-negative fit"
+  std::string source;             ///< what they were made of, e.g. "park.hdr"; any bytes
+  std::string window = "none";    ///< what was done against ringing, e.g. "hann, width 3", "non-negative fit"
   std::vector<ShLight> lights{};  ///< beside the coefficients, strongest first; at most max_sh_lights
 };
 

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <welkin/error.h>
+#include <welkin/sh/forms/code_form.h>
 
 namespace welkin {
 namespace {
@@ -46,6 +49,19 @@ class LineReader {
 
   std::string_view rest_, name_;
 };
+
+ShLight read_line(std::string_view text, std::string_view name) {
+  LineReader line(text, name);
+  ShLight light;
+  line.word("direction");
+  for (double* v : {&light.direction.x, &light.direction.y, &light.direction.z}) *v = line.number();
+  line.word("irradiance");
+  for (double& v : light.irradiance) v = line.number();
+  line.word("radius_degrees");
+  light.angular_radius = line.number() * degree;
+  line.end();
+  return light;
+}
 
 }  // namespace
 
@@ -92,20 +108,14 @@ std::string light_lines(const std::vector<ShLight>& lights, ShForm form, std::st
 
 std::vector<ShLight> lights_in(std::string_view text, ShForm form, std::string_view name) {
   std::vector<ShLight> lights;
-  for (std::size_t at = text.find(light_marker); at != std::string_view::npos;
-       at = text.find(light_marker, at)) {
-    at += light_marker.size();
-    LineReader line(text.substr(at, text.find('\n', at) - at), name);
-    ShLight light;
-    line.word("direction");
-    for (double* v : {&light.direction.x, &light.direction.y, &light.direction.z}) *v = line.number();
-    line.word("irradiance");
-    for (double& v : light.irradiance) v = line.number();
-    line.word("radius_degrees");
-    light.angular_radius = line.number() * degree;
-    line.end();
-    lights.push_back(turned_back(checked(light, name), form));
-    if (lights.size() > max_sh_lights) throw Error(name, "has too many lights");
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::optional<std::string_view> comment = comment_of(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (!comment || !comment->starts_with(light_marker)) continue;
+    lights.push_back(turned_back(checked(read_line(comment->substr(light_marker.size()), name), name), form));
+    if (lights.size() > max_sh_lights)
+      throw Error(name, fmt::format("has more than {} lights", max_sh_lights));
   }
   return lights;
 }

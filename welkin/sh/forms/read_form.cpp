@@ -60,10 +60,11 @@ class NumberReader {
     ++at_;
     if (c == '(' || c == '[' || c == '{') ++open_;
     if (c == ')' || c == ']' || c == '}') --open_;
+    if (open_ < 0) refuse("closes a bracket that was not open");
   }
 
   double number() {
-    if (text_[at_] == '+') ++at_;
+    if (text_[at_] == '+' && at_ + 1 < text_.size() && text_[at_ + 1] != '-') ++at_;
     double value = 0;
     const char* end = text_.data() + text_.size();
     const auto [next, error] = std::from_chars(text_.data() + at_, end, value);
@@ -104,24 +105,28 @@ ShFormNumbers numbers_in(std::string_view text, std::string_view name) {
   return result;
 }
 
-// What stands after `key` on its line; nothing when there is no such line.
-std::optional<std::string> line_after(std::string_view text, std::string_view key) {
-  const std::size_t begin = text.find(key);
-  if (begin == std::string_view::npos) return {};
-  std::string_view line = text.substr(begin + key.size());
-  line = line.substr(0, line.find('\n'));
-  while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
-  return std::string(line);
+// What stands after `key` in the first comment that begins with it; nothing when there is none.
+std::optional<std::string> comment_after(std::string_view text, std::string_view key) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::optional<std::string_view> comment = comment_of(text.substr(0, end));
+    if (comment && comment->starts_with(key)) return std::string(comment->substr(key.size()));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return {};
 }
 
-// The lines between the two marks.
+// The lines between the two that are nothing but the marks.
 std::string_view marked(std::string_view text, std::string_view name) {
-  const std::size_t begin = text.find(begin_mark), end = text.find(end_mark);
-  if (begin == std::string_view::npos || end == std::string_view::npos || end < begin)
-    throw Error(name, "is cut off: its coefficients do not both begin and end");
-  const std::size_t first = text.find('\n', begin), last = text.rfind('\n', end);
-  if (first >= last) throw Error(name, "has no coefficients");
-  return text.substr(first, last - first);
+  std::size_t first = std::string_view::npos;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::optional<std::string_view> comment = comment_of(text.substr(at, end - at));
+    if (comment == begin_mark && first == std::string_view::npos) first = std::min(end + 1, text.size());
+    if (comment == end_mark && first != std::string_view::npos) return text.substr(first, at - first);
+    at = end + 1;
+  }
+  throw Error(name, "is cut off: its coefficients do not both begin and end");
 }
 
 ShForm marked_form(const std::string& said, std::string_view name, std::optional<ShForm> bare_form) {
@@ -136,7 +141,7 @@ ShForm marked_form(const std::string& said, std::string_view name, std::optional
 }
 
 ShDocument read_sh_code(std::string_view text, std::string_view name, std::optional<ShForm> bare_form) {
-  const std::optional<std::string> said = line_after(text, sh_marker);
+  const std::optional<std::string> said = comment_after(text, sh_marker);
   const bool cmgen = text.find("pre-scaled base") != std::string_view::npos;
   ShForm form = cmgen ? ShForm::filament : bare_form.value_or(ShForm::json);
   if (said) form = marked_form(*said, name, bare_form);
@@ -146,7 +151,7 @@ ShDocument read_sh_code(std::string_view text, std::string_view name, std::optio
   if (has_marks && (form == ShForm::three || form == ShForm::babylon))
     throw Error(name, "is not the JSON object that it says it is");
   const ShFormNumbers numbers = numbers_in(has_marks ? marked(text, name) : text, name);
-  return {from_sh_form(numbers, form), ShQuantity::radiance, line_after(text, "Source: ").value_or(""),
+  return {from_sh_form(numbers, form), ShQuantity::radiance, comment_after(text, "Source: ").value_or(""),
           "none", lights_in(text, form, name)};
 }
 

@@ -30,7 +30,7 @@ std::string commented(std::string_view lines, std::string_view sign) {
   while (!lines.empty()) {
     const std::size_t end = lines.find('\n');
     text += fmt::format("{} {}\n", sign, lines.substr(0, end));
-    lines.remove_prefix(end + 1);
+    lines.remove_prefix(std::min(end, lines.size() - 1) + 1);
   }
   return text;
 }
