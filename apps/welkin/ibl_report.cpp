@@ -156,7 +156,8 @@ std::string pictures(const Json& manifest) {
                        "Contact sheet: the levels of the specular map as panoramas, a row of metal spheres "
                        "from mirror to "
                        "rough, a matt and a glossy red sphere, the irradiance and the DFG table",
-                       "Everything here is shaded with the files below and nothing else, at one exposure.");
+                       "Everything here is shaded with the files below, and the lights below where there are "
+                       "some, at one exposure.");
 }
 
 std::string warnings(const Json& manifest) {

@@ -80,6 +80,21 @@ Json lights_of(const ShDocument& document, ShForm form) {
   return list;
 }
 
+// What to do with the lights, for someone who has only the file.
+std::vector<const char*> lights_comment(ShForm form) {
+  std::vector<const char*> lines{
+      "Lights are not in the coefficients, and have the same axes: add, for each, albedo / pi times "
+      "irradiance",
+      "times max(0, dot(normal, direction))."};
+  if (form == ShForm::three)
+    lines.insert(lines.end(),
+                 {"const sun = new THREE.DirectionalLight(); sun.color.setRGB(...file.lights[0].irradiance); "
+                  "sun.position.fromArray(file.lights[0].direction);",
+                  "scene.add(sun); (the target stays at the origin; three.js divides by pi itself, r155 and "
+                  "later)"});
+  return lines;
+}
+
 std::string write_json(const ShDocument& document) {
   Json head = {{"generator", generator},
                {"source", document.source},
@@ -236,7 +251,10 @@ std::string write_sh_json(const ShDocument& document, ShForm form, const ShFormN
                {"form", std::string(sh_form_name(form))},
                {"source", document.source},
                {"comment", lines_of(about_form(form))}};
-  if (!document.lights.empty()) head["lights"] = lights_of(document, form);
+  if (!document.lights.empty()) {
+    for (const char* line : lights_comment(form)) head["comment"].push_back(line);
+    head["lights"] = lights_of(document, form);
+  }
   std::vector<std::string> rows;
   for (std::size_t i = 0; i < 9; ++i) {
     const std::string row = three_numbers(&numbers[3 * i]);

@@ -96,6 +96,12 @@ std::string light_lines(const std::vector<ShLight>& lights, ShForm form, std::st
       "irradiance\n"
       "{} times max(0, dot(normal, direction)).\n",
       sign, sign);
+  if (form == ShForm::unity)
+    text += fmt::format(
+        "{} Unity's own lights lack the 1 / pi (built-in and universal pipeline): linear color times "
+        "intensity =\n"
+        "{} irradiance / pi, transform.forward = -direction.\n",
+        sign, sign);
   for (const ShLight& ours : lights) {
     const ShLight l = turned(ours, form);
     text += fmt::format(
