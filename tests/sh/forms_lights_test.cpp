@@ -85,6 +85,15 @@ TEST(FormLightsTexts, DamagedLinesAreRefused) {
   }
 }
 
+TEST(FormLightsTexts, AFilamentFileThatIsCutOffLosesNoLight) {
+  const ShDocument document = with_lights();
+  const std::string text = write_sh(document, ShForm::filament);
+  std::size_t ninth = 0;
+  for (int line = 0; line < 9; ++line) ninth = text.find('\n', ninth) + 1;
+  for (std::size_t end = ninth; end < text.rfind("radius_degrees"); end += 7)
+    EXPECT_THROW(read_sh_text(text.substr(0, end)), Error) << end;
+}
+
 TEST(FormLightsTexts, LightsThatCannotBeAreNotWritten) {
   ShDocument document = with_lights();
   document.lights[0].direction = {0, 2, 0};

@@ -25,8 +25,8 @@ struct NonnegativeFit {
   std::array<double, 9> coefficients{};
   /// t of the proof: proves_nonnegative(coefficients, multiplier) is true.
   double multiplier = 0;
-  /// What was added to coefficients[0] beyond the nearest function, so that the proof has room for rounding: at most
-  /// about 1e-12 of the largest coefficient, or what the requested rounding needs (about 1e-7, 1e-8).
+  /// coefficients[0] less that of the nearest function: room for the proof, at most about 1e-12 of the largest
+  /// coefficient, or what the requested rounding takes and needs (about 1e-7, 1e-8; it may round below 0).
   double lift = 0;
   /// False: the input, rounded as asked, is proven non-negative already, and is returned as it is.
   bool changed = false;

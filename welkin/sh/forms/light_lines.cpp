@@ -50,6 +50,16 @@ class LineReader {
   std::string_view rest_, name_;
 };
 
+// What the ninth line of a filament file says; names of files come after it.
+std::optional<std::size_t> promised_lights(std::string_view text) {
+  const std::size_t at = text.find(lights_follow);
+  if (at == std::string_view::npos) return {};
+  const std::string_view rest = text.substr(at + lights_follow.size());
+  std::size_t count = 0;
+  const auto [next, error] = std::from_chars(rest.data(), rest.data() + rest.size(), count);
+  return error == std::errc() ? std::optional(count) : std::nullopt;
+}
+
 ShLight read_line(std::string_view text, std::string_view name) {
   LineReader line(text, name);
   ShLight light;
@@ -114,6 +124,7 @@ std::string light_lines(const std::vector<ShLight>& lights, ShForm form, std::st
 
 std::vector<ShLight> lights_in(std::string_view text, ShForm form, std::string_view name) {
   std::vector<ShLight> lights;
+  const std::optional<std::size_t> promised = form == ShForm::filament ? promised_lights(text) : std::nullopt;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::optional<std::string_view> comment = comment_of(text.substr(0, end));
@@ -123,6 +134,8 @@ std::vector<ShLight> lights_in(std::string_view text, ShForm form, std::string_v
     if (lights.size() > max_sh_lights)
       throw Error(name, fmt::format("has more than {} lights", max_sh_lights));
   }
+  if (promised && *promised != lights.size())
+    throw Error(name, fmt::format("is cut off: it has {} of its {} lights", lights.size(), *promised));
   return lights;
 }
 

@@ -10,11 +10,13 @@
 namespace welkin {
 
 inline constexpr std::string_view light_marker = "welkin-light: ";
+inline constexpr std::string_view lights_follow = "; lights that follow: ";
 
 /// One line of comment a light, and one that says what to do with them; nothing when there is none.
 std::string light_lines(const std::vector<ShLight>& lights, ShForm form, std::string_view sign);
 
-/// The lights of all such lines of a text. Throws Error naming `name` for a damaged one.
+/// The lights of all such lines of a text. Throws Error naming `name` for a damaged one, and where a number of
+/// lights is promised (lights_follow) and others are there.
 std::vector<ShLight> lights_in(std::string_view text, ShForm form, std::string_view name);
 
 /// Our axes to those of the form, or back.

@@ -65,12 +65,15 @@ std::string code_text(const ShDocument& document, ShForm form, const ShFormNumbe
   return form == ShForm::glsl ? text + glsl_matrices(numbers) : text;
 }
 
-// The sample programs of Filament read the first nine lines as numbers, so the comment comes last.
+// The sample programs of Filament read the first nine lines as numbers, so the comment comes last. The ninth line says
+// how many lights must follow, lest a file that is cut off loses them.
 std::string filament_text(const ShDocument& document, const ShFormNumbers& numbers) {
   std::string text;
   for (std::size_t i = 0; i < 9; ++i)
-    text += fmt::format("({:.9g}, {:.9g}, {:.9g}); // {}, irradiance, pre-scaled base\n", numbers[3 * i],
-                        numbers[3 * i + 1], numbers[3 * i + 2], harmonic_names[i]);
+    text += fmt::format(
+        "({:.9g}, {:.9g}, {:.9g}); // {}, irradiance, pre-scaled base{}\n", numbers[3 * i],
+        numbers[3 * i + 1], numbers[3 * i + 2], harmonic_names[i],
+        i == 8 && !document.lights.empty() ? fmt::format("{}{}", lights_follow, document.lights.size()) : "");
   return text + header(ShForm::filament, document, about_form(ShForm::filament), "//");
 }
 
