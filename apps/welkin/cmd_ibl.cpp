@@ -181,6 +181,13 @@ void check(const IblCommand& command) {
     throw CLI::ValidationError("--levels",
                                fmt::format("a cube of {} has {} levels at most", command.options.size, most));
   check_folder(command.output);
+  const std::filesystem::path residual = command.lights.residual;
+  if (residual.empty()) return;
+  const auto folder = [](const std::filesystem::path& p) {
+    return (std::filesystem::absolute(p) / "").lexically_normal();
+  };
+  if (folder(std::filesystem::absolute(residual).parent_path()) != folder(command.output))  // which is made
+    check_output(residual.string(), command.in.input);
 }
 
 // The lights that were asked for, out of the environment.

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -38,6 +40,7 @@ struct ShCommand {
   std::optional<int> degree;            // 2 for an environment, as it is for a file
   std::optional<std::string> quantity;  // radiance for an environment, as it is for a file
   std::string form, form_in, output, json_path;
+  bool faults_given = false;
 };
 
 std::vector<std::string> form_names() {
@@ -51,6 +54,8 @@ std::vector<std::string> form_names() {
 void check_usage(const ShCommand& command) {
   if (command.fitted_lights > 0 && command.degree && *command.degree != 2)
     throw CLI::ValidationError("--fit-lights", "is for degree 2");
+  if (command.degree.value_or(0) > 2 && !fits_any_degree(command.fit))
+    throw CLI::ValidationError("--fit", command.fit.name + " is for degree 2; hann and lanczos take any");
   if (command.form.empty()) {
     if (!command.output.empty()) throw CLI::ValidationError("-o", "needs --form: which form shall it have?");
     return;
@@ -63,6 +68,14 @@ void check_usage(const ShCommand& command) {
     throw CLI::ValidationError("--degree", "is 2 in --form " + command.form + "; only json has a choice");
 }
 
+// Of all images, only Radiance HDR begins as text.
+bool is_plain_text(std::span<const std::uint8_t> bytes) {
+  if (bytes.empty() || (bytes.size() > 1 && bytes[0] == '#' && bytes[1] == '?')) return false;
+  return std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t c) {
+    return (c >= ' ' && c <= '~') || c == '\t' || c == '\n' || c == '\r';
+  });
+}
+
 // By its first bytes. What is no regular file, a pipe, can be read only once: there --form-in decides.
 bool is_coefficient_file(const ShCommand& command) {
   if (!command.form_in.empty()) return true;
@@ -73,12 +86,20 @@ bool is_coefficient_file(const ShCommand& command) {
   std::vector<std::uint8_t> beginning(4096);
   file.read(reinterpret_cast<char*>(beginning.data()), static_cast<std::streamsize>(beginning.size()));
   beginning.resize(static_cast<std::size_t>(file.gcount()));
-  return looks_like_sh(beginning);
+  if (looks_like_sh(beginning)) return true;
+  if (is_plain_text(beginning))
+    throw Error(command.in.input,
+                "is text that does not say what its numbers are; a list of 27 numbers needs --form-in");
+  return false;
 }
 
 ShDocument load_coefficients(const ShCommand& command) {
   if (!command.in.mapping.empty() || command.lights.wanted() || command.fitted_lights > 0)
-    throw CLI::ValidationError("--mapping and lights", "need an environment; this is a file of coefficients");
+    throw CLI::ValidationError("--mapping, --extract-sun, --extract-lights and --fit-lights",
+                               "need an environment; " + command.in.input + " is a file of coefficients");
+  if (command.faults_given)
+    throw CLI::ValidationError("--faults",
+                               "is for environments; " + command.in.input + " is a file of coefficients");
   std::optional<ShForm> bare_form;
   if (!command.form_in.empty()) bare_form = parse_sh_form(command.form_in);
   ShDocument document = read_sh_file(command.in.input, bare_form);
@@ -97,18 +118,19 @@ void add_lights(ShDocument& document, std::span<const DirectionalLight> lights) 
 }
 
 // The environment without the lights that were asked for; they go to the document.
-Image take_lights(const Environment& environment, const ShCommand& command, ShDocument& document) {
+Image take_lights(const Environment& environment, const ShCommand& command, ShDocument& document,
+                  std::vector<OutputFile>& files) {
   ExtractedLights extracted = extract_lights(environment.radiance, command.lights.options());
   if (extracted.lights.empty())
     fmt::print(stderr, "welkin: {}: warning: no light: nothing in it is compact and strong enough\n",
                environment.source);
   add_lights(document, extracted.lights);
   if (!command.lights.residual.empty())
-    write_file(command.lights.residual, encode_flat(command.lights.residual, extracted.residual));
+    files.push_back({command.lights.residual, encode_flat(command.lights.residual, extracted.residual)});
   return std::move(extracted.residual);
 }
 
-ShDocument project(const ShCommand& command) {
+ShDocument project(const ShCommand& command, std::vector<OutputFile>& files) {
   const Environment environment = load(command.in);
   for (const std::string& warning : environment.warnings)
     fmt::print(stderr, "welkin: {}: warning: {}\n", environment.source, warning);
@@ -120,11 +142,21 @@ ShDocument project(const ShCommand& command) {
     add_lights(document, fit.lights);
     document.coefficients = std::move(fit.rest);
   } else if (command.lights.wanted()) {
-    document.coefficients = project_equirect(take_lights(environment, command, document), degree);
+    document.coefficients = project_equirect(take_lights(environment, command, document, files), degree);
   } else {
     document.coefficients = project_equirect(environment.radiance, degree);
   }
   return document;
+}
+
+// Of the input's name, whatever of it fails.
+template <typename Work>
+auto named(const ShCommand& command, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw Error(command.in.input, error.what());
+  }
 }
 
 // The degree and the quantity that were asked for.
@@ -134,18 +166,11 @@ void transform(ShDocument& document, const ShCommand& command) {
     throw Error(command.in.input, fmt::format("has degree {}, less than --degree {}", coefficients.max_degree,
                                               *command.degree));
   if (command.degree) coefficients = resize(coefficients, *command.degree);
-  try {
-    apply_fit(document, command.fit);
-  } catch (const Error& error) {
-    throw Error(command.in.input, error.what());
-  }
+  named(command, [&] { apply_fit(document, command.fit); });
   if (!command.quantity || *command.quantity == sh_quantity_name(document.quantity)) return;
   const ShQuantity wanted = parse_sh_quantity(*command.quantity);
-  try {
-    coefficients = sh_of_quantity(sh_radiance_from(coefficients, document.quantity), wanted);
-  } catch (const Error& error) {
-    throw Error(command.in.input, error.what());
-  }
+  named(command,
+        [&] { coefficients = sh_of_quantity(sh_radiance_from(coefficients, document.quantity), wanted); });
   document.quantity = wanted;
 }
 
@@ -171,20 +196,34 @@ void print_table(const ShDocument& document) {
   print_document_lights(document);
 }
 
-void write(const ShDocument& document, const ShCommand& command) {
-  if (!command.json_path.empty()) return write_file(command.json_path, write_sh(document, ShForm::json));
-  if (command.form.empty()) return print_table(document);
+// Numbers near the ends of double leave it on the way.
+void check_finite(const ShDocument& document, const ShCommand& command) {
+  const auto& values = document.coefficients.values;
+  if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+    throw Error(command.in.input, "has coefficients too large or too small to work with; scale them");
+}
+
+// The form that was asked for; "" for the table.
+std::string form_text(const ShDocument& document, const ShCommand& command) {
+  if (!command.json_path.empty()) return named(command, [&] { return write_sh(document, ShForm::json); });
+  if (command.form.empty()) return "";
   const ShForm form = parse_sh_form(command.form);
   if (form != ShForm::json && document.coefficients.max_degree > 2)
     throw Error(command.in.input,
                 fmt::format("has degree {}, and --form {} holds degree 2; --degree 2 drops the rest",
                             document.coefficients.max_degree, command.form));
-  const std::string text = write_sh(document, form);
-  if (command.output.empty()) {
-    fmt::print("{}", text);
-  } else {
-    write_file(command.output, text);
-  }
+  return named(command, [&] { return write_sh(document, form); });
+}
+
+// All files or none, and only when everything is made.
+void write(const ShDocument& document, const ShCommand& command, std::vector<OutputFile> files) {
+  const std::string text = form_text(document, command);
+  const std::string& path = command.json_path.empty() ? command.output : command.json_path;
+  if (!path.empty()) files.push_back({path, {text.begin(), text.end()}});
+  write_files(files);
+  if (!path.empty()) return;
+  if (command.form.empty()) return print_table(document);
+  fmt::print("{}", text);
 }
 
 void run(const ShCommand& command) {
@@ -192,9 +231,13 @@ void run(const ShCommand& command) {
   check_residual(command.lights, "the input", command.in.input);
   check_residual(command.lights, "the output", command.output);
   check_residual(command.lights, "the output", command.json_path);
-  ShDocument document = is_coefficient_file(command) ? load_coefficients(command) : project(command);
+  for (const std::string& path : {command.output, command.json_path, command.lights.residual})
+    check_output(path, command.in.input);
+  std::vector<OutputFile> files;
+  ShDocument document = is_coefficient_file(command) ? load_coefficients(command) : project(command, files);
   transform(document, command);
-  write(document, command);
+  check_finite(document, command);
+  write(document, command, std::move(files));
 }
 
 void add_sh_options(CLI::App& sub, ShCommand& command) {
@@ -218,14 +261,15 @@ void add_sh_options(CLI::App& sub, ShCommand& command) {
          "Write what an engine reads in place of the table: three, babylon, filament, unity, unreal, godot, "
          "c, glsl, hlsl, json (see docs/conventions.md)")
       ->check(CLI::IsMember(form_names()));
-  sub.add_option("-o,--output", command.output, "Where the form goes; standard output unless given");
+  sub.add_option("-o,--output", command.output, "Where the form goes; standard output unless given")
+      ->check(must_be_a_name);
   sub.add_option(
          "--form-in", command.form_in,
          "What the numbers of INPUT are, where it does not say so itself: a bare list of 27 numbers, or the "
          "JSON of three or babylon")
       ->check(CLI::IsMember(form_names()));
   CLI::Option* json = sub.add_option("--json", command.json_path, "The same as --form json -o FILE");
-  json->excludes("--form")->excludes("--output");
+  json->check(must_be_a_name)->excludes("--form")->excludes("--output");
 }
 
 }  // namespace
@@ -244,6 +288,7 @@ void add_sh_command(CLI::App& app) {
   sub->callback([command, sub] {
     check_light_options(command->lights, *sub);
     check_fit_options(command->fit, *sub);
+    command->faults_given = sub->count("--faults") > 0;
     run(*command);
   });
 }

@@ -20,6 +20,11 @@ inline std::string must_be_finite(const std::string& text) {
   return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : text + " is not a finite number";
 }
 
+/// A check that refuses the empty name, which a script's unset variable leaves behind.
+inline std::string must_be_a_name(const std::string& text) {
+  return text.empty() ? "needs the name of a file, and got an empty one" : "";
+}
+
 /// The input and the options that every command which reads an environment has in common.
 struct EnvironmentInput {
   std::string input;

@@ -44,6 +44,16 @@ LoadedImage load_file_or_sky(const std::string& name) {
   return loaded;
 }
 
+void check_output(const std::string& path, const std::string& input) {
+  if (path.empty()) return;
+  std::error_code none;
+  if (std::filesystem::equivalent(path, input, none) && std::filesystem::is_regular_file(input, none))
+    throw Error(path, "is the input and would be overwritten; choose another name");
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  if (!std::filesystem::is_directory(folder, none))
+    throw Error(path, "cannot be written: there is no folder " + folder.string());
+}
+
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

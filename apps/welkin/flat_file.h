@@ -19,6 +19,9 @@ std::vector<std::uint8_t> encode_flat(const std::string& path, const Image& imag
 /// load_image, or make_sky where the name is a sky ("sky:day,elevation=20").
 LoadedImage load_file_or_sky(const std::string& name);
 
+/// Throws Error, before any work, where `path` is the file `input` or lies in no folder that exists. "" is no file.
+void check_output(const std::string& path, const std::string& input);
+
 /// The extension in lower case, with its dot.
 std::string extension_of(const std::string& path);
 

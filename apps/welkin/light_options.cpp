@@ -22,7 +22,8 @@ void add_light_options(CLI::App& sub, LightInput& in) {
       ->check(CLI::Range(0.05, 45.0))
       ->capture_default_str();
   sub.add_option("--residual", in.residual,
-                 "Write the map without the lights, filled from around: .hdr, .exr or .png (tone-mapped)");
+                 "Write the map without the lights, filled from around: .hdr, .exr or .png (tone-mapped)")
+      ->check(must_be_a_name);
 }
 
 void check_residual(const LightInput& in, const std::string& other, const std::string& path) {

@@ -61,6 +61,10 @@ void add_fit_options(CLI::App& sub, ShFitOptions& options) {
       ->capture_default_str();
 }
 
+bool fits_any_degree(const ShFitOptions& options) {
+  return options.name == "plain" || is_window(options.name);
+}
+
 void check_fit_options(const ShFitOptions& options, const CLI::App& sub) {
   if (sub.count("--window-width") > 0 && !is_window(options.name))
     throw CLI::ValidationError("--window-width", "is for --fit hann and --fit lanczos");

@@ -14,6 +14,9 @@ struct ShFitOptions {
 
 void add_fit_options(CLI::App& sub, ShFitOptions& options);
 
+/// Whether the fit takes other degrees than 2 and below.
+bool fits_any_degree(const ShFitOptions& options);
+
 /// Throws CLI::ValidationError for a width that no window takes.
 void check_fit_options(const ShFitOptions& options, const CLI::App& sub);
 

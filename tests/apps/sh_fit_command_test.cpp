@@ -1,7 +1,12 @@
+#include <sys/stat.h>
+
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "command_test.h"
 
@@ -120,10 +125,53 @@ TEST_F(ShFitCommandTest, MisuseIsRefused) {
   expect_refused({"sh", lamp, "--fit", "best"}, 2, "--fit");
   expect_refused({"sh", lamp, "--window-width", "2"}, 2, "--window-width");
   expect_refused({"sh", lamp, "--fit", "hann", "--window-width", "nan"}, 2, "--window-width");
-  expect_refused({"sh", lamp, "--fit", "nonnegative", "--degree", "4"}, 1, "degree 2");
+  expect_refused({"sh", lamp, "--fit", "nonnegative", "--degree", "4"}, 2, "degree 2");
   expect_refused({"sh", lamp, "--fit-lights", "2", "--degree", "4"}, 2, "--fit-lights");
   expect_refused({"sh", lamp, "--fit-lights", "2", "--extract-sun"}, 2, "--fit-lights");
   expect_refused({"sh", lamp, "--residual", "a.exr"}, 2, "--residual");
+  expect_refused({"sh", lamp, "--json", ""}, 2, "--json");
+  expect_refused({"sh", lamp, "--form", "c", "-o", ""}, 2, "-o");
+}
+
+TEST_F(ShFitCommandTest, NoOutputOverwritesTheInput) {
+  run_well({"convert", "sky:day,size=64x32", "-o", "map.hdr"});
+  run_well({"sh", "map.hdr", "--json", "a.json"});
+  std::filesystem::create_hard_link(at("a.json"), at("same.json"));
+  const auto before = files_below(at(""));
+  for (const Arguments& wrong : {Arguments{"sh", "map.hdr", "--json", "./map.hdr"},
+                                 {"sh", "map.hdr", "--form", "c", "-o", "map.hdr"},
+                                 {"sh", "a.json", "--fit", "nonnegative", "--json", "a.json"},
+                                 {"sh", "a.json", "--form", "three", "-o", "same.json"}}) {
+    const RunResult result = run(wrong);
+    EXPECT_EQ(result.exit_code, 1) << testing::PrintToString(wrong);
+    EXPECT_NE(result.err.find("is the input"), std::string::npos) << result.err;
+    EXPECT_TRUE(files_below(at("")) == before) << testing::PrintToString(wrong);
+  }
+}
+
+TEST_F(ShFitCommandTest, NoFileIsLeftWhenAnotherCannotBeWritten) {
+  const std::string sun = "sky:day,size=128x64";
+  for (const Arguments& output :
+       {Arguments{"--json", "missing/a.json"}, {"--json", "/dev/full"}, {"--form", "c", "-o", "/dev/full"}}) {
+    Arguments all{"sh", sun, "--extract-sun", "--residual", "rest.exr"};
+    all.insert(all.end(), output.begin(), output.end());
+    expect_refused(all, 1, output.back());
+  }
+  expect_refused({"sh", sun, "--extract-sun", "--residual", "missing/rest.exr", "--json", "a.json"}, 1,
+                 "missing/rest.exr");
+  expect_refused({"ibl", sun, "--extract-sun", "--residual", "missing/rest.exr", "-o", "set"}, 1,
+                 "missing/rest.exr");
+  run_well({"ibl", sun, "--extract-sun", "--size", "8", "--residual", "set/rest.exr", "-o", "./set/"});
+}
+
+TEST_F(ShFitCommandTest, CoefficientsComeOutOfAPipe) {
+  run_well({"sh", lamp, "--json", "a.json"});
+  const std::string text = read_text(at("a.json"));
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(at("pipe"), std::ios::binary) << text; });
+  const std::string table = run_well({"sh", "pipe", "--form-in", "json"});
+  writer.join();
+  EXPECT_EQ(table, run_well({"sh", "a.json"}));
 }
 
 TEST_F(ShFitCommandTest, TheResidualOverwritesNothing) {
@@ -144,13 +192,42 @@ TEST_F(ShFitCommandTest, TheResidualOverwritesNothing) {
 
 TEST_F(ShFitCommandTest, CoefficientsHaveNoLightsToTakeOut) {
   run_well({"sh", lamp, "--json", "a.json"});
-  for (const Arguments& wrong : {Arguments{"--extract-sun"}, {"--fit-lights", "1"}, {"--mapping", "cube"}}) {
+  for (const Arguments& wrong :
+       {Arguments{"--extract-sun"}, {"--fit-lights", "1"}, {"--mapping", "cube"}, {"--faults", "refuse"}}) {
     Arguments all{"sh", "a.json"};
     all.insert(all.end(), wrong.begin(), wrong.end());
     const RunResult result = run(all);
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_NE(result.err.find("file of coefficients"), std::string::npos) << result.err;
   }
+}
+
+TEST_F(ShFitCommandTest, WhatLeavesTheRangeOfNumbersIsRefused) {
+  run_well({"sh", lamp, "--json", "a.json"});
+  ShDocument huge = document("a.json");
+  const auto refused = [&](double scale, const Arguments& options, const std::string& why) {
+    for (std::size_t i = 0; i < huge.coefficients.values.size(); ++i)
+      huge.coefficients.values[i] = i % 2 ? scale : -scale;
+    write_text(at("a.json"), write_sh(huge, ShForm::json));
+    Arguments all{"sh", "a.json"};
+    all.insert(all.end(), options.begin(), options.end());
+    const RunResult result = run(all);
+    EXPECT_EQ(result.exit_code, 1) << testing::PrintToString(all);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err.find("welkin: a.json: "), 0u) << result.err;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+  };
+  for (ShForm form : all_sh_forms)
+    if (form != ShForm::json) refused(1e41, {"--form", std::string(sh_form_name(form))}, "too large");
+  refused(1.7e308, {"--quantity", "irradiance"}, "too large");
+  refused(1.7e308, {"--rotate", "30"}, "too large");
+}
+
+TEST_F(ShFitCommandTest, TextWithoutItsFormIsTold) {
+  write_text(at("a.txt"), "1 2 3");
+  EXPECT_NE(run({"sh", "a.txt"}).err.find("--form-in"), std::string::npos);
+  write_text(at("a.json"), "{\"coefficients\": [[1, 2");
+  EXPECT_NE(run({"sh", "a.json"}).err.find("cut off"), std::string::npos);
 }
 
 }  // namespace

@@ -64,6 +64,24 @@ TEST(LightFit, OneLitTexelIsOneLightAndNothingElse) {
   for (double v : fit.rest.values) EXPECT_NEAR(v, 0, 1e-3 * radiance[0] * omega);
 }
 
+// What nine coefficients miss is the same for a light and for its mirror image behind the sphere.
+TEST(LightFit, LightsStandOnTheSideOfTheSource) {
+  for (Vec3 source : {Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0.6, -0.64, 0.48}, Vec3{-0.6, 0.64, -0.48}}) {
+    Image map(128, 64);
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 128; ++x) {
+        const Vec3 d = equirect_direction({(x + 0.5) / 128, (y + 0.5) / 64});
+        std::fill_n(map.at(x, y), 3, dot(d, source) > 0.99 ? 1e3f : 0.1f);
+      }
+    const LightFit fit = fit_lights(map, 3);
+    ASSERT_FALSE(fit.lights.empty());
+    // The source is a disc of 8 degrees; lights beside it make up for its extent.
+    for (const DirectionalLight& light : fit.lights) EXPECT_GT(dot(light.direction, source), 0.9);
+    const Measured measured = measure(map, fit);
+    EXPECT_NEAR(measured.rms, fit.error, 0.2 * fit.error + 1e-5 * measured.largest);
+  }
+}
+
 TEST(LightFit, PredictsTheErrorThatIsMeasured) {
   for (double elevation : {5.0, 30.0}) {
     SkyOptions sky;

@@ -205,6 +205,26 @@ std::vector<DirectionalLight> make_lights(const Fitter& fitter, const std::vecto
   return lights;
 }
 
+// Degrees 4, 6, 8, ... are the same for a light from d and from -d. Nine coefficients make up for the difference, but
+// shadows and highlights would come from the wrong side. So each light gets the side that leaves least of the map's
+// luminance moment, the integral of radiance times direction, to the coefficients.
+void choose_sides(std::vector<DirectionalLight>& lights, const ShCoefficients& map) {
+  const double y_1 = std::sqrt(3 / (4 * std::numbers::pi));  // Y_1m = y_1 times y, z, x
+  const auto moment = [&](std::size_t i) { return luminance(&map.values[3 * i]) / y_1; };
+  const Vec3 of_map{moment(3), moment(1), moment(2)};
+  unsigned best = 0;
+  double least = 0;
+  for (unsigned flipped = 0; flipped < 1u << lights.size(); ++flipped) {
+    Vec3 rest = of_map;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      rest = rest - ((flipped >> i & 1) ? -1 : 1) * lights[i].illuminance * lights[i].direction;
+    const double here = length(rest);
+    if (flipped == 0 || here < least * (1 - 1e-9)) best = flipped, least = here;
+  }
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (best >> i & 1) lights[i].direction = -lights[i].direction;
+}
+
 }  // namespace
 
 LightFit fit_lights(const Image& equirect, int max_lights) {
@@ -222,8 +242,9 @@ LightFit fit_lights(const Image& equirect, int max_lights) {
     }
     fit.lights = make_lights(fitter, directions, flux);
   }
-  fit.error = std::sqrt(fitter.left(fit.lights) / sphere);
   fit.rest = project_equirect(equirect, 2);
+  choose_sides(fit.lights, fit.rest);
+  fit.error = std::sqrt(fitter.left(fit.lights) / sphere);
   std::array<double, 9> basis{};
   for (const DirectionalLight& light : fit.lights) {
     evaluate_sh_basis(light.direction, 2, basis);

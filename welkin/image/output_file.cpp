@@ -100,13 +100,15 @@ std::filesystem::path behind_links(const std::filesystem::path& path) {
   return error ? path : target;
 }
 
-// A device or a pipe is never replaced by a file: bytes go into it.
-bool write_through(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+bool is_device(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status) ||
-      std::filesystem::is_directory(status))
-    return false;
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
+// A device or a pipe is never replaced by a file: bytes go into it.
+void write_through(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) fail(path, "cannot write", errno);
   try {
@@ -116,7 +118,23 @@ bool write_through(const std::filesystem::path& path, std::span<const std::uint8
     throw;
   }
   ::close(file);
-  return true;
+}
+
+// A pipe has no size beforehand.
+std::vector<std::uint8_t> read_pipe(const std::filesystem::path& path) {
+  constexpr std::size_t block = 1 << 20, most = std::size_t{4} << 30;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) fail(path, "cannot open", errno);
+  std::vector<std::uint8_t> bytes;
+  while (stream) {
+    const std::size_t before = bytes.size();
+    if (before >= most) throw Error(path.string(), "is a pipe with more than 4 GiB");
+    bytes.resize(before + block);
+    stream.read(reinterpret_cast<char*>(bytes.data() + before), block);
+    bytes.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
+  if (bytes.empty()) throw Error(path.string(), "is empty");
+  return bytes;
 }
 
 }  // namespace
@@ -124,6 +142,7 @@ bool write_through(const std::filesystem::path& path, std::span<const std::uint8
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw Error(path.string(), "is a directory, not a file");
+  if (std::filesystem::is_fifo(path, error)) return read_pipe(path);
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   if (!stream) fail(path, "cannot open", errno);
   const std::streamoff size = stream.tellg();
@@ -137,7 +156,7 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-  if (write_through(path, bytes)) return;
+  if (is_device(path)) return write_through(path, bytes);
   const std::filesystem::path target = behind_links(path);
   UnfinishedFile unfinished(target);
   fill(unfinished, path, bytes);
@@ -146,12 +165,19 @@ void write_file(const std::filesystem::path& path, std::span<const std::uint8_t>
 
 void write_files(std::span<const OutputFile> files) {
   std::deque<UnfinishedFile> unfinished;
-  for (const OutputFile& file : files) fill(unfinished.emplace_back(file.path), file.path, file.bytes);
+  std::vector<std::filesystem::path> targets;
+  for (const OutputFile& file : files) {
+    if (is_device(file.path)) continue;
+    targets.push_back(behind_links(file.path));
+    fill(unfinished.emplace_back(targets.back()), file.path, file.bytes);
+  }
   // Renaming onto a folder fails: found out before the first file is replaced, not at the last.
   std::error_code ignored;
   for (const OutputFile& file : files)
     if (std::filesystem::is_directory(file.path, ignored)) fail(file.path, "cannot write", EISDIR);
-  for (std::size_t i = 0; i < files.size(); ++i) unfinished[i].rename_to(files[i].path);
+  for (const OutputFile& file : files)
+    if (is_device(file.path)) write_through(file.path, file.bytes);
+  for (std::size_t i = 0; i < targets.size(); ++i) unfinished[i].rename_to(targets[i]);
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {

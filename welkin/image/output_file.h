@@ -23,7 +23,8 @@ struct OutputFile {
 };
 
 /// Writes a set of files: all under temporary names first, renamed only when every one of them is whole. So a failure
-/// (Error naming the file) or a kill while writing leaves what was there before.
+/// (Error naming the file) or a kill while writing leaves what was there before. Devices and pipes get their bytes before
+/// the renames.
 void write_files(std::span<const OutputFile> files);
 
 /// Removes the temporary files of writes that are under way; async-signal-safe, meant for a SIGINT handler.

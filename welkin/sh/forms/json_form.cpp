@@ -122,6 +122,7 @@ Json parse(std::string_view text, std::string_view name) {
   } catch (const nlohmann::json::out_of_range&) {
     refuse(name, "has a number that is not finite");
   } catch (const nlohmann::json::parse_error& error) {
+    if (error.byte > text.size()) refuse(name, "is cut off: its JSON does not end");
     refuse(name, fmt::format("is not whole JSON: it goes wrong at byte {} of {}", error.byte, text.size()));
   }
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 #include <welkin/error.h>
@@ -90,6 +91,9 @@ std::string write_sh(const ShDocument& document, ShForm form) {
     throw Error(fmt::format("the form {} holds degree 2, and these coefficients have degree {}",
                             sh_form_name(form), all.max_degree));
   const ShFormNumbers numbers = to_sh_form(sh_radiance_from(all, document.quantity), form);
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double n) { return std::abs(n) <= FLT_MAX; }))
+    throw Error(fmt::format("these coefficients are too large for the floats of the form {}; scale them down",
+                            sh_form_name(form)));
   switch (form) {
     case ShForm::three:
     case ShForm::babylon: return write_sh_json(document, form, numbers);
