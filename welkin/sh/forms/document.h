@@ -37,7 +37,8 @@ inline constexpr std::size_t max_sh_file_size = 4 << 20;
 /// The text of a file of that form: UTF-8, nine significant digits, one coefficient a line, the same bytes for the
 /// same input. All but json hold degree 2 exactly and say in a comment what they hold, in which axes, and which shader
 /// lines use it. Lights stand beside the coefficients, in the form's own axes; only json reads `window` back. Throws
-/// Error when `document` has a higher degree (json: never), other than 3 channels, or numbers that are not finite, or too large for the floats of an engine's form.
+/// Error when `document` has a higher degree (json: never), other than 3 channels, or numbers that are not finite, or too large
+/// for the floats of an engine's form.
 std::string write_sh(const ShDocument& document, ShForm form);
 
 /// Reads what write_sh writes, recognised by content, and the sh.txt of Filament's cmgen. A bare list of 27 numbers (as
