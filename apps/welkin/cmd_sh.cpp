@@ -122,8 +122,10 @@ Image take_lights(const Environment& environment, const ShCommand& command, ShDo
                   std::vector<OutputFile>& files) {
   ExtractedLights extracted = extract_lights(environment.radiance, command.lights.options());
   if (extracted.lights.empty())
-    fmt::print(stderr, "welkin: {}: warning: no light: nothing in it is compact and strong enough\n",
-               environment.source);
+    fmt::print(
+        stderr,
+        "welkin: {}: warning: no light: nothing in it is compact and strong enough (see --light-radius)\n",
+        environment.source);
   add_lights(document, extracted.lights);
   if (!command.lights.residual.empty())
     files.push_back({command.lights.residual, encode_flat(command.lights.residual, extracted.residual)});
@@ -183,10 +185,17 @@ void print_document_lights(const ShDocument& document) {
                l.angular_radius * 180 / std::numbers::pi);
 }
 
+// Names come out of files; a terminal obeys control characters.
+std::string shown(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
+  return text;
+}
+
 void print_table(const ShDocument& document) {
   fmt::print("{} of {}, real orthonormal basis without Condon-Shortley sign, polar axis z\n",
-             sh_quantity_name(document.quantity), document.source);
-  if (document.window != "none") fmt::print("against ringing: {}\n", document.window);
+             sh_quantity_name(document.quantity), shown(document.source));
+  if (document.window != "none") fmt::print("against ringing: {}\n", shown(document.window));
   fmt::print("{:>3} {:>4} {:>14} {:>14} {:>14}\n", "l", "m", "red", "green", "blue");
   for (int l = 0; l <= document.coefficients.max_degree; ++l)
     for (int m = -l; m <= l; ++m) {

@@ -190,6 +190,19 @@ TEST_F(ShFitCommandTest, TheResidualOverwritesNothing) {
   }
 }
 
+TEST_F(ShFitCommandTest, TheTableSendsNoControlCharactersToATerminal) {
+  run_well({"sh", lamp, "--json", "a.json"});
+  std::string text = read_text(at("a.json"));
+  const std::size_t at_source = text.find("\"source\": \"");
+  ASSERT_NE(at_source, std::string::npos);
+  text.insert(at_source + 11, "\\u001b[31m\\u0007");
+  write_text(at("b.json"), text);
+  const std::string out = run_well({"sh", "b.json"});
+  EXPECT_EQ(out.find('\x1b'), std::string::npos);
+  EXPECT_EQ(out.find('\x07'), std::string::npos);
+  EXPECT_NE(out.find("?[31m?"), std::string::npos) << out.substr(0, 120);
+}
+
 TEST_F(ShFitCommandTest, CoefficientsHaveNoLightsToTakeOut) {
   run_well({"sh", lamp, "--json", "a.json"});
   for (const Arguments& wrong :
