@@ -52,6 +52,9 @@ const std::vector<Confined> confined = {
     {"TurboJPEG", std::regex("(turbojpeg|jpeglib|jerror)\\.h"),
      std::regex("welkin/image/codecs/jpeg[^/]*\\.cpp")},
     {"nlohmann-json", std::regex("nlohmann/.*"), std::regex("welkin/sh/forms/json_form\\.cpp|apps/.*")},
+    {"astcenc", std::regex("astcenc\\.h"), std::regex("welkin/image/codecs/astc[^/]*\\.cpp")},
+    {"Highway", std::regex("hwy/.*"), std::regex("welkin/.*\\.cpp")},
+    {"Eigen", std::regex("Eigen/.*"), std::regex("welkin/.*\\.cpp")},
     {"kissfft", std::regex("(kissfft/)?kiss_?fft.*"), std::regex("welkin/sh/[^/]*\\.cpp")},
 };
 
@@ -181,6 +184,9 @@ TEST(Architecture, RulesRefuseAndAllowWhatTheyShould) {
   EXPECT_TRUE(refused("welkin/image/codecs/ldr.cpp", "png.h"));
   EXPECT_TRUE(refused("welkin/image/codecs/ldr.cpp", "turbojpeg.h"));
   EXPECT_TRUE(refused("apps/welkin/main.cpp", "Imath/ImathVec.h"));
+  EXPECT_TRUE(refused("welkin/image/codecs/ktx2_read.cpp", "astcenc.h"));
+  EXPECT_TRUE(refused("welkin/sh/transform.h", "hwy/highway.h"));
+  EXPECT_TRUE(refused("apps/welkin/main.cpp", "Eigen/Dense"));
   EXPECT_TRUE(refused("welkin/sh/forms/json_form.h", "nlohmann/json.hpp"));
   EXPECT_TRUE(refused("welkin/sh/forms/read_form.cpp", "nlohmann/json.hpp"));
 
@@ -192,6 +198,9 @@ TEST(Architecture, RulesRefuseAndAllowWhatTheyShould) {
   EXPECT_FALSE(refused("welkin/image/codecs/ktx2.cpp", "zstd.h"));
   EXPECT_FALSE(refused("welkin/image/codecs/png_read.cpp", "png.h"));
   EXPECT_FALSE(refused("welkin/image/codecs/jpeg_read.cpp", "turbojpeg.h"));
+  EXPECT_FALSE(refused("welkin/image/codecs/astc_decode.cpp", "astcenc.h"));
+  EXPECT_FALSE(refused("welkin/sh/transform.cpp", "hwy/highway.h"));
+  EXPECT_FALSE(refused("welkin/brdf/fit.cpp", "Eigen/Dense"));
   EXPECT_FALSE(refused("welkin/sh/transform.cpp", "kissfft/kissfft.hh"));
   EXPECT_FALSE(refused("apps/welkin/ibl.cpp", "welkin/envmap/filter.h"));
 }
