@@ -23,7 +23,8 @@ std::vector<double> reflect_brute_force(const Image& radiance, const IsotropicBr
 
 /// Random pairs for error measures: normals uniform on the sphere, views uniform in the cosine from the normal over
 /// [smallest_cos_view, 1] and in azimuth. The same for the same seed.
-std::vector<ReflectionQuery> random_reflection_queries(int count, unsigned seed, double smallest_cos_view = 0.05);
+std::vector<ReflectionQuery> random_reflection_queries(int count, unsigned seed,
+                                                       double smallest_cos_view = 0.05);
 
 /// The queries of a sphere seen from far away: an orthographic picture of size x size: row-major, those outside
 /// of the disc have a zero normal. The camera looks along -Z (view = +Z), x to the right, y up.
