@@ -25,7 +25,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"sampling", {"parallel"}},
     {"sphere", {"image", "sampling"}},
     {"sh", {"sphere"}},
-    {"brdf", {"sampling"}},
+    {"brdf", {"image", "sampling"}},
     {"envmap", {"sh", "brdf", "sphere"}},
     {"scene", {"image"}},
     {"raytrace", {"scene"}},

@@ -1,6 +1,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <welkin/brdf/merl.h>
 #include <welkin/error.h>
 #include <welkin/image/codecs/dds.h>
 #include <welkin/image/codecs/exr.h>

@@ -4,6 +4,8 @@
 
 #include <tests/image/exr_files.h>
 #include <tests/image/ldr_files.h>
+#include <welkin/brdf/merl.h>
+#include <welkin/brdf/models.h>
 #include <welkin/image/codecs/dds.h>
 #include <welkin/image/codecs/exr.h>
 #include <welkin/image/codecs/hdr.h>
@@ -152,6 +154,13 @@ void add_sh(const SeedFolder& seeds) {
   }
 }
 
+void add_merl(const SeedFolder& seeds) {
+  for (const MerlShape& shape : {MerlShape{1, 1, 1}, MerlShape{2, 3, 4}}) {
+    const MerlTable table = tabulate_merl(make_lambert_brdf({0.5, 0.25, 1}), shape);
+    seeds.add_to("merl", std::to_string(shape.phi_diff) + ".binary", encode_merl(table));
+  }
+}
+
 }  // namespace
 }  // namespace welkin
 
@@ -166,5 +175,6 @@ int main(int count, char** arguments) {
   welkin::add_ldr(seeds);
   welkin::add_textures(seeds);
   welkin::add_sh(seeds);
+  welkin::add_merl(seeds);
   return 0;
 }

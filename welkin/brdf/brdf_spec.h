@@ -1,0 +1,21 @@
+#pragma once
+#include <string_view>
+
+#include <welkin/brdf/isotropic.h>
+
+namespace welkin {
+
+/// A BRDF from its text form; the models are those of models.h and merl.h:
+///   lambert:ALBEDO               ggx:ALPHA[,F0]               merl:FILE
+///   phong:N[,SCALE]              ggx-dielectric:ALPHA,ETA
+///   blinn-phong:N[,SCALE]        ggx-conductor:ALPHA,ETA,K
+///   ward:ALPHA[,SPECULAR]
+/// F0 is 0.04 and the other scales 1 unless given; ALBEDO, SCALE, SPECULAR, F0, ETA and K of a conductor may be three
+/// numbers, R:G:B. Throws Error that names the choices for an unknown model, and that says which parameter is missing,
+/// superfluous, no number or out of range.
+IsotropicBrdf parse_brdf(std::string_view spec);
+
+/// "lambert:ALBEDO, phong:N[,SCALE], ...": the choices, for help texts.
+std::string_view brdf_choices();
+
+}  // namespace welkin
