@@ -25,6 +25,7 @@
 #include "source_name.h"
 
 #include <welkin/envmap/ibl.h>
+#include <welkin/envmap/kernel_spec.h>
 #include <welkin/envmap/verify.h>
 #include <welkin/error.h>
 #include <welkin/image/codecs/ldr.h>
@@ -48,10 +49,6 @@ struct IblCommand {
   VerifyOptions verify_options;
   bool json = false;
 };
-
-KernelKind parse_kernel(const std::string& name) {
-  return name == "phong" ? KernelKind::phong : name == "gaussian" ? KernelKind::gaussian : KernelKind::ggx;
-}
 
 DiffuseMethod parse_diffuse(const std::string& name) {
   return name == "sh"      ? DiffuseMethod::sh
@@ -237,7 +234,7 @@ void run(IblCommand command) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   IblOptions& options = command.options;
-  options.kernel = parse_kernel(command.kernel);
+  options.kernel = parse_kernel_family(command.kernel);
   options.law = parse_level_law(command.law);
   options.diffuse = parse_diffuse(command.diffuse);
   if (command.multiple_scattering) options.dfg_form = DfgForm::scale_bias_with_multiple_scattering;
@@ -311,8 +308,8 @@ void add_ibl_command(CLI::App& app) {
       ->capture_default_str();
   sub->add_option("--levels", o.levels, "Levels of the specular map; 0 chooses those down to 4 texels")
       ->check(CLI::Range(0, 14));
-  sub->add_option("--kernel", command->kernel, "ggx, phong or gaussian")
-      ->check(CLI::IsMember({"ggx", "phong", "gaussian"}))
+  sub->add_option("--kernel", command->kernel, "ggx, phong, blinn-phong, gaussian or vmf")
+      ->check(CLI::IsMember({"ggx", "phong", "blinn-phong", "gaussian", "vmf"}))
       ->capture_default_str();
   sub->add_option("--level-law", command->law,
                   "Which level a roughness is in: linear, quadratic (Filament, three.js), log2 (Babylon.js)")

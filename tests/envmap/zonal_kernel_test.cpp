@@ -64,7 +64,9 @@ INSTANTIATE_TEST_SUITE_P(All, ZonalKernels,
                          testing::Values(make_ggx_kernel(0.01), make_ggx_kernel(0.25), make_ggx_kernel(1),
                                          make_phong_kernel(0), make_phong_kernel(1), make_phong_kernel(500),
                                          make_lambert_kernel(), make_gaussian_kernel(0.05),
-                                         make_gaussian_kernel(1.2)),
+                                         make_gaussian_kernel(1.2), make_blinn_phong_kernel(0),
+                                         make_blinn_phong_kernel(300), make_von_mises_fisher_kernel(0),
+                                         make_von_mises_fisher_kernel(2), make_von_mises_fisher_kernel(900)),
                          [](const auto& param) {
                            std::string text = describe(param.param);
                            for (char& c : text)
@@ -76,6 +78,18 @@ INSTANTIATE_TEST_SUITE_P(All, ZonalKernels,
 TEST(ZonalKernel, GgxOfAlphaOneIsLambert) {
   for (double u : {0.0, 0.3, 0.99, 1.5})
     EXPECT_NEAR(evaluate(make_ggx_kernel(1), u), evaluate(make_lambert_kernel(), u), 1e-12);
+}
+
+TEST(ZonalKernel, BlinnPhongOfExponentZeroIsLambert) {
+  for (double u : {0.0, 0.3, 0.99, 1.5})
+    EXPECT_NEAR(evaluate(make_blinn_phong_kernel(0), u), evaluate(make_lambert_kernel(), u), 1e-12);
+}
+
+// k_1 of the von Mises-Fisher distribution is its mean cosine, coth kappa - 1/kappa (Fisher 1953).
+TEST(ZonalKernel, VonMisesFisherHasItsMeanCosine) {
+  for (double kappa : {0.5, 3.0, 40.0})
+    EXPECT_NEAR(legendre_coefficients(make_von_mises_fisher_kernel(kappa), 1)[1],
+                1 / std::tanh(kappa) - 1 / kappa, 1e-12);
 }
 
 // The ratio of two values of D(theta/2, alpha) cos theta, by the formula of Walter et al. 2007, equation 33, spelled out.
@@ -103,6 +117,9 @@ TEST(ZonalKernel, RefusesParametersOutOfRange) {
   EXPECT_THROW(make_ggx_kernel(NAN), Error);
   EXPECT_THROW(make_phong_kernel(-1), Error);
   EXPECT_THROW(make_gaussian_kernel(0), Error);
+  EXPECT_THROW(make_blinn_phong_kernel(-0.1), Error);
+  EXPECT_THROW(make_von_mises_fisher_kernel(-1), Error);
+  EXPECT_THROW(make_von_mises_fisher_kernel(INFINITY), Error);
 }
 
 TEST(CoreShare, FallsSmoothlyFromOneToZero) {

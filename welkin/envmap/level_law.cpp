@@ -55,6 +55,8 @@ ZonalKernel kernel_for_alpha(KernelKind kind, double alpha) {
     case KernelKind::ggx: return make_ggx_kernel(alpha);
     case KernelKind::phong: return make_phong_kernel(exponent);
     case KernelKind::gaussian: return make_gaussian_kernel(1 / std::sqrt(exponent));
+    case KernelKind::blinn_phong: return make_blinn_phong_kernel(2 / (alpha * alpha) - 2);
+    case KernelKind::von_mises_fisher: return make_von_mises_fisher_kernel(exponent);
     default: return make_lambert_kernel();
   }
 }

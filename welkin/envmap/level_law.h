@@ -26,8 +26,9 @@ double level_to_perceptual_roughness(LevelLaw law, double level, int levels, int
 double perceptual_roughness_to_level(LevelLaw law, double perceptual_roughness, int levels, int size);
 
 /// The kernel of a family for a GGX width alpha in (0, 1]: ggx itself; phong with N = 1 + (1/alpha^2 - 1)/2, which has
-/// the same spread for small alpha and is the Lambert lobe at alpha = 1; gaussian with sigma = 1/sqrt(N).
-/// lambert ignores alpha.
+/// the same spread for small alpha and is the Lambert lobe at alpha = 1; gaussian with sigma = 1/sqrt(N);
+/// vmf with kappa = N; blinn-phong with 2/alpha^2 - 2 (Walter et al. 2007, section 5.3), the same spread again. lambert
+/// ignores alpha.
 ZonalKernel kernel_for_alpha(KernelKind kind, double alpha);
 
 }  // namespace welkin
