@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
   welkin::add_info_command(app);
   welkin::add_convert_command(app);
   welkin::add_compare_command(app);
+  welkin::add_reflect_command(app);
   welkin::add_sh_command(app);
   welkin::add_sky_command(app);
   try {
