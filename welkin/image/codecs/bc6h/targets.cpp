@@ -1,0 +1,46 @@
+#include <welkin/image/codecs/bc6h/targets.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+#include <welkin/image/codecs/bc6h/error_scale.h>
+#include <welkin/image/half.h>
+
+namespace welkin::bc6h {
+
+void round_to_halves(const float rgb[3], float factor, bool is_signed, int halves[3], std::size_t& clipped) {
+  for (int i = 0; i < 3; ++i) {
+    const std::uint16_t code = half_saturated(rgb[i] * factor, clipped);
+    const int magnitude = code & 0x7fff;
+    const bool negative = (code & 0x8000) != 0 && magnitude > 0;
+    clipped += negative && !is_signed ? 1 : 0;
+    halves[i] = negative ? (is_signed ? -magnitude : 0) : magnitude;
+  }
+}
+
+// A half h comes from all positions i with floor(31 i / 64) = h (signed: 31 |i| / 32), which are ceil(64 h / 31) to
+// ceil(64 (h + 1) / 31) - 1: their middle is the target.
+Targets make_targets(const int halves[48], const float importance[16], bool is_signed) {
+  const float* scale = error_scale();
+  const int whole = is_signed ? 32 : 64;  // 31 halves take so many positions
+  Targets targets{};
+  targets.is_signed = is_signed;
+  for (int t = 0; t < 16; ++t) targets.importance[t] = importance[t];
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (int t = 0; t < 16; ++t) {
+      const int half = halves[3 * t + static_cast<int>(c)];
+      const int magnitude = std::abs(half);
+      const float slope = (scale[magnitude + 1] - scale[magnitude]) * (31.0f / static_cast<float>(whole));
+      const int low = (whole * magnitude + 30) / 31, high = (whole * (magnitude + 1) + 30) / 31 - 1;
+      const float middle = 0.5f * static_cast<float>(low + high);
+      targets.level[c][t] = scale[half];
+      targets.position[c][t] = half < 0 ? -middle : middle;
+      targets.weight[c][t] = importance[t] * slope * slope;
+      targets.limit[c] = std::max(targets.limit[c], magnitude);
+    }
+  }
+  return targets;
+}
+
+}  // namespace welkin::bc6h
