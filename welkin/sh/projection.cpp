@@ -59,7 +59,6 @@ ShCoefficients project_equirect(const Image& radiance, int max_degree) {
   check_degree(max_degree);
   AnalysisOptions options;
   options.max_degree = max_degree;
-  options.accuracy = 1e-12;
   const Spectrum spectrum = analyze(radiance, options);
   return project_band_limited(max_degree, radiance.channels,
                               [&](Vec3 direction) { return evaluate(spectrum, direction); });

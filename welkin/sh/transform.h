@@ -5,21 +5,19 @@
 #include <welkin/sh/spectrum.h>
 #include <welkin/sphere/vec3.h>
 
-// The fast spherical-harmonic transform: FFT along the rows, Legendre sums along the columns, O(rows degree^2) in all
-// (see transform_legendre.h for the kernel and its derivation). Same bits on any number of threads.
+// The fast spherical-harmonic transform: FFT along the rows, FFT along the columns to as few rows as the degree needs
+// (colatitude_series.h), Legendre sums over those (transform_legendre.h), O(degree^3) in all besides the FFTs. Same bits
+// on any number of threads; vector instructions are chosen when the program runs (welkin/parallel/simd.h).
 
 namespace welkin {
 
 struct AnalysisOptions {
   /// The largest degree wanted, >= 0. May exceed what the map resolves: a map of patches has content at all degrees.
   int max_degree = 255;
-  /// How exactly the rows are integrated: the relative quadrature error allowed at max_degree; it falls with a high
-  /// power of the degree below that.
-  double accuracy = 1e-5;
 };
 
 /// The spectrum of an equirectangular map: a_lm = integral of f conj(Y_lm). Each texel is a patch on which f is
-/// constant, integrated in azimuth exactly and in theta by Gauss-Legendre nodes chosen from options.accuracy.
+/// constant, integrated exactly in azimuth and in theta (colatitude_series.h): to about 1e-12 of the largest values.
 /// equirect has 1, 3 or 4 channels and at least one pixel; any width and height.
 Spectrum analyze(const Image& equirect, const AnalysisOptions& options = {});
 

@@ -5,8 +5,10 @@
 #include <numbers>
 
 #include <welkin/parallel/parallel_for.h>
-#include <welkin/sampling/quadrature.h>
-#include <welkin/sh/row_fft.h>
+#include <welkin/parallel/target_clones.h>
+#include <welkin/sh/batch_fft.h>
+#include <welkin/sh/colatitude_series.h>
+#include <welkin/sh/row_orders.h>
 #include <welkin/sh/transform.h>
 #include <welkin/sh/transform_legendre.h>
 
@@ -14,43 +16,7 @@ namespace welkin {
 namespace {
 
 using Complex = std::complex<double>;
-using legendre::lane_count;
-
-// A map's rows, each cut into `split` sub-rows with the same pixels (the same function of patches), so that a few
-// nodes a sub-row are enough for any degree.
-struct RowLayout {
-  int split = 1, rows = 0, nodes = 2;
-};
-
-RowLayout choose_rows(int height, const AnalysisOptions& options) {
-  for (int split = 1;; ++split) {
-    const double kappa = options.max_degree * std::numbers::pi / (2.0 * height * split);
-    for (int nodes = 2; nodes <= 4; ++nodes)
-      if (gauss_legendre_error(nodes, kappa) <= std::max(options.accuracy, 1e-15))
-        return {split, height * split, nodes};
-  }
-}
-
-// Node weights are scaled so that each row's weights give its exact integral of sin theta: constants stay exact.
-// The middle row of an odd count is its own mirror image and counts half.
-legendre::RowPairs place_nodes(const RowLayout& layout) {
-  legendre::RowPairs pairs((layout.rows + 1) / 2, layout.nodes);
-  const QuadratureRule rule = gauss_legendre(layout.nodes);
-  const double half_step = std::numbers::pi / (2.0 * layout.rows);
-  for (int row = 0; row < pairs.pairs; ++row) {
-    const double centre = (2 * row + 1) * half_step;
-    double sum = 0;
-    for (int node = 0; node < layout.nodes; ++node)
-      sum += rule.weights[node] * std::sin(centre + half_step * rule.nodes[node]);
-    const double exact = 2 * std::sin(centre) * std::sin(half_step);
-    const double share = 2 * row + 1 == layout.rows ? 0.5 : 1.0;
-    for (int node = 0; node < layout.nodes; ++node) {
-      const double theta = centre + half_step * rule.nodes[node];
-      pairs.set(row, node, theta, share * rule.weights[node] * std::sin(theta) * exact / sum);
-    }
-  }
-  return pairs;
-}
+constexpr int lanes = BatchFft::batch_lanes;
 
 // Integral over one texel column of exp(-i m phi): dphi sinc(m dphi/2) exp(-i m phi_centre), without the part that
 // the FFT supplies; the first column's centre lies at -pi + dphi/2.
@@ -65,53 +31,108 @@ std::vector<Complex> column_factors(int width, int max_degree) {
   return factors;
 }
 
-// FFT of one channel of a row pair at once: north + i south. With Z its transform, north_m = (Z_m + conj Z_-m)/2 and
-// south_m = (Z_m - conj Z_-m)/2i.
-class RowPairFft {
- public:
-  explicit RowPairFft(int width) : fft_(width, false), in_(width), out_(width) {}
-
-  void transform(const Image& map, int north, int south, int channel) {
-    const float* n = map.at(0, north) + channel;
-    const float* s = map.at(0, south) + channel;
-    for (int x = 0; x < map.width; ++x) in_[x] = {n[x * map.channels], s[x * map.channels]};
-    fft_.transform(in_.data(), out_.data());
+// One channel of `lanes` pairs of rows as north + i south; lanes beyond the last pair repeat it.
+void load_pairs(const Image& map, int first_pair, int pairs, int channel, BatchFft& fft) {
+  const float *north[lanes], *south[lanes];
+  for (int lane = 0; lane < lanes; ++lane) {
+    const int pair = std::min(first_pair + lane, pairs - 1);
+    north[lane] = map.at(0, pair) + channel;
+    south[lane] = map.at(0, map.height - 1 - pair) + channel;
   }
-  void split(int m, Complex& sum, Complex& difference) const {
-    const int width = static_cast<int>(out_.size()), k = m % width;
-    const Complex z = out_[k], mirrored = std::conj(out_[k ? width - k : 0]);
-    const Complex north = 0.5 * (z + mirrored), south = Complex(0, -0.5) * (z - mirrored);
-    sum = north + south;
-    difference = north - south;
+  for (int x = 0; x < map.width; ++x) {
+    double* to = fft.at(x);
+    const std::size_t offset = static_cast<std::size_t>(x) * map.channels;
+    for (int lane = 0; lane < lanes; ++lane) {
+      to[lane] = north[lane][offset];
+      to[lanes + lane] = south[lane][offset];
+    }
   }
+}
 
- private:
-  RowFft fft_;
-  std::vector<Complex> in_, out_;
-};
+// With Z the transform of north + i south, north_m = (Z_m + conj Z_-m)/2 and south_m = (Z_m - conj Z_-m)/2i; both times
+// `factor`.
+WELKIN_TARGET_CLONES void split_pairs(const double* __restrict z, const double* __restrict mirrored,
+                                      Complex factor, double* __restrict out) {
+  const double c = 0.5 * factor.real(), s = 0.5 * factor.imag();
+  for (int i = 0; i < lanes; ++i) {
+    const double north_re = z[i] + mirrored[i], north_im = z[i + lanes] - mirrored[i + lanes];
+    const double south_re = z[i + lanes] + mirrored[i + lanes], south_im = mirrored[i] - z[i];
+    out[i] = c * north_re - s * north_im;
+    out[i + lanes] = c * north_im + s * north_re;
+    out[i + 2 * lanes] = c * south_re - s * south_im;
+    out[i + 3 * lanes] = c * south_im + s * south_re;
+  }
+}
 
-void transform_rows(const Image& map, const RowLayout& layout, legendre::OrderData& data) {
-  const std::vector<Complex> factors = column_factors(map.width, data.max_degree);
-  const int pairs = (layout.rows + 1) / 2;
-  parallel_for(data.blocks, 4, [&](std::size_t begin, std::size_t end) {
-    RowPairFft fft(map.width);
-    for (int pair = static_cast<int>(begin) * lane_count;
-         pair < std::min<int>(pairs, static_cast<int>(end) * lane_count); ++pair) {
-      const int block = pair / lane_count, lane = pair % lane_count;
+RowOrders transform_rows(const Image& map, int max_degree) {
+  RowOrders rows(map.height, map.channels, max_degree);
+  const std::vector<Complex> factors = column_factors(map.width, max_degree);
+  const BatchFft prepared(map.width);
+  parallel_for(rows.blocks, 1, [&](std::size_t begin, std::size_t end) {
+    BatchFft fft(prepared);
+    for (int block = static_cast<int>(begin); block < static_cast<int>(end); ++block)
       for (int c = 0; c < map.channels; ++c) {
-        fft.transform(map, pair / layout.split, (layout.rows - 1 - pair) / layout.split, c);
-        for (int m = 0; m <= data.max_degree; ++m) {
-          Complex by_parity[2];
-          fft.split(m, by_parity[0], by_parity[1]);
-          for (int parity = 0; parity < 2; ++parity) {
-            const Complex value = factors[m] * by_parity[parity];
-            data.at(m, block, parity, 2 * c)[lane] = value.real();
-            data.at(m, block, parity, 2 * c + 1)[lane] = value.imag();
-          }
+        load_pairs(map, block * lanes, rows.pairs, c, fft);
+        fft.transform();
+        for (int m = 0; m <= max_degree; ++m) {
+          const int k = m % map.width;
+          split_pairs(fft.at(k), fft.at((map.width - k) % map.width), factors[m], rows.at(block, c, m));
         }
       }
+  });
+  return rows;
+}
+
+// The rows of one channel at orders first, first + 2, ... of one parity, to the grid of the Legendre sums.
+void load_orders(RowOrders& rows, RowOrders::Task task, PatchRows& series) {
+  for (int block = 0; block < rows.blocks; ++block)
+    for (int lane = 0; lane < lanes; ++lane) {
+      const double* from = rows.at(block, task.channel, task.first + 2 * lane);
+      for (int i = 0; i < lanes; ++i) {
+        const int pair = block * lanes + i;
+        if (pair >= rows.pairs) break;
+        double* south = series.row(rows.height - 1 - pair);
+        south[lane] = from[i + 2 * lanes];
+        south[lane + lanes] = from[i + 3 * lanes];
+        double* north = series.row(pair);  // the middle row of an odd height is its own mirror image
+        north[lane] = from[i];
+        north[lane + lanes] = from[i + lanes];
+      }
+    }
+}
+
+void store_orders(const PatchRows& series, const legendre::RowPairs& grid, RowOrders::Task task,
+                  legendre::OrderData& data) {
+  const int grid_rows = 2 * grid.pairs;
+  const double weight = std::numbers::pi / grid_rows;
+  for (int lane = 0; lane < lanes && task.first + 2 * lane <= data.max_degree; ++lane) {
+    const int m = task.first + 2 * lane;
+    for (int part = 0; part < 2; ++part) {
+      double* even = data.at(m, 0, 2 * task.channel + part);
+      double* odd = data.at(m, 1, 2 * task.channel + part);
+      for (int pair = 0; pair < grid.pairs; ++pair) {
+        const double north = series.grid_row(pair)[lane + part * lanes],
+                     south = series.grid_row(grid_rows - 1 - pair)[lane + part * lanes];
+        even[pair] = weight * (north + south);
+        odd[pair] = weight * (north - south) / grid.cos_theta[pair];
+      }
+    }
+  }
+}
+
+legendre::OrderData resample_rows(RowOrders rows, int max_degree, const legendre::RowPairs& grid) {
+  legendre::OrderData data(max_degree, grid, 2 * rows.channels);
+  const PatchRows prepared(rows.height, max_degree, 2 * grid.pairs);
+  parallel_for(rows.tasks(), 2, [&](std::size_t begin, std::size_t end) {
+    PatchRows series(prepared);
+    for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
+      const RowOrders::Task task = rows.task(i);
+      load_orders(rows, task, series);
+      series.to_grid(task.first % 2 != 0);
+      store_orders(series, grid, task, data);
     }
   });
+  return data;
 }
 
 }  // namespace
@@ -119,15 +140,14 @@ void transform_rows(const Image& map, const RowLayout& layout, legendre::OrderDa
 Spectrum analyze(const Image& equirect, const AnalysisOptions& options) {
   assert(!equirect.empty() && options.max_degree >= 0);
   assert(equirect.channels == 1 || equirect.channels == 3 || equirect.channels == 4);
-  const RowLayout layout = choose_rows(equirect.height, options);
-  const legendre::RowPairs rows = place_nodes(layout);
-  legendre::OrderData data(options.max_degree, rows.blocks, 2 * equirect.channels);
-  transform_rows(equirect, layout, data);
+  const legendre::RowPairs grid(smooth_row_count(options.max_degree + 1));
+  const legendre::OrderData data =
+      resample_rows(transform_rows(equirect, options.max_degree), options.max_degree, grid);
   Spectrum spectrum(options.max_degree, equirect.channels);
   parallel_for(options.max_degree + 1, 2, [&](std::size_t begin, std::size_t end) {
     for (int m = static_cast<int>(begin); m < static_cast<int>(end); ++m)
       legendre::analyze_order(
-          m, rows, data,
+          m, grid, data,
           reinterpret_cast<double*>(&spectrum.values[spectrum.index(m, m) * spectrum.channels]));
   });
   return spectrum;
