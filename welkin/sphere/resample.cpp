@@ -166,7 +166,7 @@ SphereMap resample(MapSource source, MapShape target, const ResampleOptions& opt
   }
   const DensityTable density(from);
   std::unique_ptr<DirectionIndex> index;
-  if (any_magnified(source, target)) index = std::make_unique<DirectionIndex>(from);
+  if (options.interpolate && any_magnified(source, target)) index = std::make_unique<DirectionIndex>(from);
   parallel_for(static_cast<std::size_t>(target.height), 4, [&](std::size_t begin, std::size_t end) {
     resample_rows(source, density, index.get(), static_cast<int>(begin), static_cast<int>(end), result);
   });

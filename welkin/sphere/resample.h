@@ -22,6 +22,9 @@ namespace welkin {
 struct ResampleOptions {
   /// Scale each channel so that the integral over the sphere is that of the source (to float rounding).
   bool keep_energy = true;
+  /// false: every target texel gets the mean over its patch, however fine it is, as if the source were seen through a
+  /// magnifying glass: exact for the model of texels as patches of constant radiance, and blocky.
+  bool interpolate = true;
   /// Turns (or mirrors) the environment on the way: what the source shows in direction d the result shows in
   /// orientation * d. Must be orthogonal to 1e-6; see orientation.h.
   Mat3 orientation;
