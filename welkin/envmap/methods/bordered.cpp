@@ -71,8 +71,7 @@ PlaneKernel square_of_spread(const ZonalKernel& kernel) {
 
 Cube filter_bordered(const Image& radiance, const FilterTarget& target, const BorderedOptions& options) {
   if (!(options.border <= 1)) throw Error("the border of a face must not be wider than 1 face");
-  const PlaneKernel kernel =
-      options.box ? square_of_spread(target.kernel) : lobe_at_middle(target.kernel);
+  const PlaneKernel kernel = options.box ? square_of_spread(target.kernel) : lobe_at_middle(target.kernel);
   const Cube source = working_cube(radiance, face_size(radiance, target));
   const double wanted = options.border < 0 ? std::min(1.0, kernel.reach / 2) : options.border;
   // A multiple of 32 where it is wide: the picture's coarser copies need even sizes.

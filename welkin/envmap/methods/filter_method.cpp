@@ -29,6 +29,10 @@ using O = FilterMethodOptions;
 
 constexpr Entry entries[] = {
     {M::brute, "brute", call<filter_brute, &O::brute>},
+    {M::bordered, "bordered", call<filter_bordered, &O::bordered>},
+    {M::box, "box", call<filter_box, &O::box>},
+    {M::paraboloid, "paraboloid", call<filter_paraboloid, &O::paraboloid>},
+    {M::quick, "quick", call<filter_quick, &O::quick>},
     {M::frequency, "frequency", call<filter_frequency, &O::frequency>},
 };
 

@@ -4,8 +4,12 @@
 #include <vector>
 
 #include <welkin/envmap/filter.h>
+#include <welkin/envmap/methods/bordered.h>
+#include <welkin/envmap/methods/box.h>
 #include <welkin/envmap/methods/brute.h>
 #include <welkin/envmap/methods/frequency.h>
+#include <welkin/envmap/methods/paraboloid.h>
+#include <welkin/envmap/methods/quick.h>
 
 // The filters of the literature under their names, to be compared. Each is one pair of files; its header says its paper,
 // its artefact and its error. docs/filters.md has them all in one table of time and error.
@@ -36,6 +40,10 @@ FilterMethod parse_filter_method(std::string_view name);
 /// Each method reads its own part.
 struct FilterMethodOptions {
   BruteOptions brute{};
+  BorderedOptions bordered{};
+  BoxOptions box{};
+  ParaboloidOptions paraboloid{};
+  QuickOptions quick{};
   FrequencyOptions frequency{};
 };
 

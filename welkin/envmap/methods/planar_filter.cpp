@@ -45,7 +45,6 @@ std::vector<GridPlace> grid_places(const PlanePicture& source, int size, double 
   return places;
 }
 
-
 // One part of a kernel: its core, or a ring around it.
 struct Part {
   double inner = 0, outer = 0;  // windows of core_share; 0: not cut there
@@ -63,8 +62,8 @@ double part_weight(const PlaneKernel& kernel, const Part& part, double dx, doubl
 // The mean of the kernel over a texel at (dx, dy): one node where the kernel hardly varies, up to 16 a side at its peak.
 double texel_weight(const PlaneKernel& kernel, const Part& part, double dx, double dy, double texel) {
   const double scale = std::max(1e-12, std::hypot(kernel.width, std::max(0.0, std::hypot(dx, dy) - texel)));
-  const int nodes =
-      std::clamp(static_cast<int>(std::ceil(4 * texel / scale)), 1, part.inner > 0 || !kernel.smooth ? 4 : 16);
+  const int nodes = std::clamp(static_cast<int>(std::ceil(4 * texel / scale)), 1,
+                               part.inner > 0 || !kernel.smooth ? 4 : 16);
   double sum = 0;
   for (int j = 0; j < nodes; ++j)
     for (int i = 0; i < nodes; ++i)
@@ -118,8 +117,7 @@ void add_part(const PlanePicture& source, const PlaneKernel& kernel, const Part&
     for (const GridPlace& row : places) {
       const auto [entry, made] = tables.try_emplace({column.fraction, row.fraction});
       if (made)
-        entry->second =
-            make_table(kernel, part, texel, source.texels.width, column.fraction, row.fraction);
+        entry->second = make_table(kernel, part, texel, source.texels.width, column.fraction, row.fraction);
     }
   parallel_for(static_cast<std::size_t>(size), 1, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)

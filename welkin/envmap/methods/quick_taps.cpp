@@ -52,7 +52,8 @@ Goal make_goal(const ZonalKernel& kernel, double least_deviation) {
   const int limit = std::clamp(static_cast<int>(12 / angular_width(kernel)), 24, 768);
   goal.factors = legendre_coefficients(kernel, limit);
   while (goal.factors.size() > 16 && std::abs(goal.factors.back()) < 3e-3) goal.factors.pop_back();
-  goal.factors.resize(2 * goal.factors.size());  // zeros, where narrow footprints show that the kernel has none
+  goal.factors.resize(2 *
+                      goal.factors.size());  // zeros, where narrow footprints show that the kernel has none
   for (std::size_t l = 0; l < goal.factors.size(); ++l) {
     goal.counts.push_back(2.0 * static_cast<double>(l) + 1);
     goal.power += goal.counts[l] * goal.factors[l] * goal.factors[l];
@@ -102,8 +103,7 @@ Quadratic error_form(const Goal& goal, const Rings& rings) {
       next_legendre(l, cosines.data(), last.data(), before.data(), static_cast<int>(cosines.size()));
       last.swap(before);
     }
-    for (std::size_t i = 0; i < rings.size(); ++i)
-{
+    for (std::size_t i = 0; i < rings.size(); ++i) {
       const double spread = 0.5 * l * (l + 1) * rings[i].deviation * rings[i].deviation;
       footprint[i] = std::exp(-spread);
       off[i] = footprint_spread * spread * footprint[i];
@@ -114,8 +114,8 @@ Quadratic error_form(const Goal& goal, const Rings& rings) {
       for (std::size_t j = 0; j <= i; ++j, ++pair) {
         double sum = 0;
         for (int k = begins[pair]; k < begins[pair + 1]; ++k) sum += last[k];
-        form.a[i][j] +=
-            goal.counts[l] * (footprint[i] * footprint[j] + off[i] * off[j]) * sum / (begins[pair + 1] - begins[pair]);
+        form.a[i][j] += goal.counts[l] * (footprint[i] * footprint[j] + off[i] * off[j]) * sum /
+                        (begins[pair + 1] - begins[pair]);
       }
     }
   }
@@ -249,7 +249,9 @@ Vertex simplex_search(const Goal& goal, Rings& rings, const Point& start, double
 
 // Ways to share `count` taps among rings, from the inside out.
 std::vector<std::vector<int>> layouts(int count) {
-  const auto ring = [count](double share) { return std::max(2, static_cast<int>(std::lround(share * count))); };
+  const auto ring = [count](double share) {
+    return std::max(2, static_cast<int>(std::lround(share * count)));
+  };
   std::vector<std::vector<int>> result;
   if (count >= 3) result.push_back({1, count - 1});
   if (count < 6) return result.empty() ? std::vector<std::vector<int>>{{1, 1}} : result;
@@ -257,7 +259,8 @@ std::vector<std::vector<int>> layouts(int count) {
   result.push_back({1, ring(0.34), count - 1 - ring(0.34)});
   if (count >= 12) result.push_back({1, ring(0.25), ring(0.31), count - 1 - ring(0.25) - ring(0.31)});
   if (count >= 24)
-    result.push_back({1, ring(0.16), ring(0.22), ring(0.28), count - 1 - ring(0.16) - ring(0.22) - ring(0.28)});
+    result.push_back(
+        {1, ring(0.16), ring(0.22), ring(0.28), count - 1 - ring(0.16) - ring(0.22) - ring(0.28)});
   return result;
 }
 

@@ -65,8 +65,7 @@ SplineMips::Level SplineMips::halved(const Level& fine) {
                 sums[face][c] += weight * static_cast<double>(fine.at(face, fx, fy)[c]);
           }
         for (int face = 0; face < 6; ++face)
-          for (int c = 0; c < 3; ++c)
-            coarse.at(face, x, y)[c] = static_cast<float>(sums[face][c] / total);
+          for (int c = 0; c < 3; ++c) coarse.at(face, x, y)[c] = static_cast<float>(sums[face][c] / total);
       }
   });
   coarse.fill_borders();
@@ -115,8 +114,7 @@ void SplineMips::add_look_up(Vec3 direction, double deviation, double weight, do
   const double wanted = (variance + 1.0 / 6) * 12 / 5;
   const int last = static_cast<int>(levels_.size()) - 1;
   const int level = wanted < 1 ? 0 : std::min(std::ilogb(wanted) / 2, last);
-  const double share =
-      level < last ? std::clamp((std::ldexp(wanted, -2 * level) - 1) / 3, 0.0, 1.0) : 0.0;
+  const double share = level < last ? std::clamp((std::ldexp(wanted, -2 * level) - 1) / 3, 0.0, 1.0) : 0.0;
   if (share < 1) levels_[level].add_bilinear(p.face, p.s, p.t, weight * (1 - share), rgb);
   if (share > 0) levels_[level + 1].add_bilinear(p.face, p.s, p.t, weight * share, rgb);
 }

@@ -26,11 +26,11 @@ class SplineMips {
  private:
   struct Level {
     int size = 0;
-    std::vector<float> texels;  // 6 faces of (size + 2)^2 texels of 4 floats: a border of one texel around each
+    std::vector<float>
+        texels;  // 6 faces of (size + 2)^2 texels of 4 floats: a border of one texel around each
 
     float* at(int face, int x, int y) {  // -1 .. size
-      return texels.data() +
-             4 * ((static_cast<std::size_t>(face) * (size + 2) + y + 1) * (size + 2) + x + 1);
+      return texels.data() + 4 * ((static_cast<std::size_t>(face) * (size + 2) + y + 1) * (size + 2) + x + 1);
     }
     const float* at(int face, int x, int y) const { return const_cast<Level*>(this)->at(face, x, y); }
     void fill_borders();
