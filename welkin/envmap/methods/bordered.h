@@ -9,6 +9,9 @@ struct BorderedOptions {
   double border = -1;
   /// A square of the kernel's spread, as the paper's hardware filters with, instead of the kernel.
   bool box = false;
+  /// Weigh texels by their true solid angles instead of by their areas in the picture: not as published, but the
+  /// light of a lamp then counts alike wherever on a face it is. The lobe is still the same all over the picture.
+  bool solid_angles = false;
 };
 
 /// Each face alone, as a flat picture with its four neighbours folded out around it as a border, filtered by one kernel that is

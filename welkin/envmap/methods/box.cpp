@@ -49,10 +49,29 @@ void add_look_up(const Cube& cube, CubePoint point, double weight, double* rgb) 
 // texel squared, a deviation of half a texel, and a texel of the cube's level k is 2^k * 2/cube_size wide in the middle of a
 // face and sqrt(pi/6) of that in the mean over solid angle. It has the deviation of the kernel where
 //   2^k sqrt(pi/6) / cube_size = spread,   k = log2(cube_size spread) + 0.467.
-// What is best on maps lies lower than that by `sharper`, fitted (see docs/filters.md).
+// What is best on maps lies higher, by what the fit of bench_box_bias says (see docs/filters.md).
 double box_level_bias(const ZonalKernel& kernel, int cube_size) {
-  constexpr double constant = 0.467, sharper = 0;
-  return std::max(0.0, std::log2(cube_size * kernel_spread(kernel)) + constant - sharper);
+  constexpr double by_variance = 0.467, fitted = 0.383;
+  return std::max(0.0, std::log2(cube_size * kernel_spread(kernel)) + by_variance + fitted);
+}
+
+CubeMips box_chain(Cube cube) {
+  CubeMips chain;
+  chain.levels.push_back(std::move(cube));
+  while (chain.levels.back().size > 1) chain.levels.push_back(halved(chain.levels.back()));
+  return chain;
+}
+
+Cube look_up_box_chain(const CubeMips& chain, const FilterTarget& target, double level) {
+  const double last = static_cast<double>(chain.levels.size()) - 1, clamped = std::clamp(level, 0.0, last);
+  const auto lower = static_cast<std::size_t>(clamped);
+  const auto upper = std::min(lower + 1, chain.levels.size() - 1);
+  const double blend = clamped - static_cast<double>(lower);
+  return cube_from_directions(target, [&](Vec3 direction, double* rgb) {
+    const CubePoint point = cube_point(direction);
+    add_look_up(chain.levels[lower], point, 1 - blend, rgb);
+    add_look_up(chain.levels[upper], point, blend, rgb);
+  });
 }
 
 Cube filter_box(const Image& radiance, const FilterTarget& target, const BoxOptions& options) {
@@ -61,16 +80,7 @@ Cube filter_box(const Image& radiance, const FilterTarget& target, const BoxOpti
   const int size = options.cube_size > 0 ? options.cube_size : matching_cube_size(radiance);
   const double bias = options.bias ? *options.bias : box_level_bias(target.kernel, size);
   if (!(bias >= 0 && bias < 64)) throw Error("the level bias must lie in [0, 64)");
-  Cube level = working_cube(radiance, size);
-  const int lower = static_cast<int>(bias);
-  for (int k = 0; k < lower && level.size > 1; ++k) level = halved(level);
-  const Cube next = level.size > 1 ? halved(level) : level;
-  const double blend = bias - lower;
-  return cube_from_directions(target, [&](Vec3 direction, double* rgb) {
-    const CubePoint point = cube_point(direction);
-    add_look_up(level, point, 1 - blend, rgb);
-    add_look_up(next, point, blend, rgb);
-  });
+  return look_up_box_chain(box_chain(working_cube(radiance, size)), target, bias);
 }
 
 }  // namespace welkin

@@ -13,8 +13,14 @@ struct BoxOptions {
 };
 
 /// The mip level (of a cube with `cube_size` texels along an edge, level 0) whose trilinear look-up is nearest to a
-/// kernel: log2(cube_size * kernel_spread) + a constant, not below 0. Derivation and fit: docs/filters.md.
+/// kernel: log2(cube_size * kernel_spread) + 0.85, not below 0. Derivation and fit: docs/filters.md.
 double box_level_bias(const ZonalKernel& kernel, int cube_size);
+
+/// The chain that hardware makes: each texel the plain mean of four, each face by itself.
+CubeMips box_chain(Cube cube);
+
+/// A level of the chain, trilinear, for every texel of the target, each face by itself (no texels of neighbours).
+Cube look_up_box_chain(const CubeMips& chain, const FilterTarget& target, double level);
 
 /// The mip chain that hardware makes of a cube, each face halved by itself with the plain mean of four texels, and a
 /// trilinear look-up with a level bias, each face filtered by itself too: no texels of neighbours, as before seamless
