@@ -6,12 +6,7 @@
 
 #include "../maps.h"
 
-#include <welkin/envmap/brute_force.h>
-#include <welkin/envmap/cube_steps.h>
 #include <welkin/envmap/methods/filter_method.h>
-#include <welkin/envmap/methods/quick_taps.h>
-#include <welkin/envmap/methods/spline_mips.h>
-#include <welkin/envmap/methods/working_cube.h>
 #include <welkin/error.h>
 #include <welkin/sphere/cube.h>
 
@@ -70,7 +65,7 @@ TEST(Approximations, LeaveAConstantAsItIs) {
   const Image map = constant_map(64, 32, 3);
   for (FilterMethod method : methods)
     for (const ZonalKernel& kernel : {make_ggx_kernel(0.02), make_phong_kernel(50), make_lambert_kernel()})
-      for (int size : {1, 5, 16})
+      for (int size : {1, 9})
         for (float value : filter_by_method(map, {kernel, size, 2}, method).texels)
           ASSERT_NEAR(value, 6, 6e-6) << filter_method_name(method) << ", " << describe(kernel);
 }
