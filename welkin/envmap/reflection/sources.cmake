@@ -1,3 +1,8 @@
 # Light reflected by surfaces, as the viewer sees it; paths are relative to welkin/envmap.
 set(WELKIN_REFLECTION_SOURCES
+  reflection/simplex_search.cpp
+  reflection/split_sum.cpp
+  reflection/stretched_taps.cpp
+  reflection/stretched_taps_fit.cpp
+  reflection/tap_fit.cpp
   reflection/truth.cpp)
