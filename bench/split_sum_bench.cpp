@@ -20,8 +20,8 @@ namespace {
 
 using namespace welkin;
 
-constexpr int map_width = 256;  // brute force sums over every texel
-constexpr int query_count = 300;
+constexpr int map_width = 128;  // brute force sums over every texel
+constexpr int query_count = 150;
 constexpr std::array<double, 3> f0 = {0.04, 0.5, 1};
 
 using PerF0 = std::array<double, 3>;
@@ -89,14 +89,13 @@ std::string compared(const Errors& plain, const Errors& taps, double scale) {
   return text;
 }
 
-void bench_map(bench::Report& report, const std::string& source, const StretchedTapsTable& table,int levels, int size,
+void bench_map(bench::Report& report, const std::string& source, const StretchedTapsTable& table,
                std::array<Total, 10>& totals) {
   const Image map = gray(load_environment(source).radiance);
-  PrefilterOptions options;options.levels=levels;options.size=size;
-  const PrefilteredChain chain = make_prefiltered_chain(map, options);
+  const PrefilteredChain chain = make_prefiltered_chain(map);
   report.note("-- " + source);
   int slot = 0;
-  for (const auto& queries : {random_reflection_queries(query_count, 11, 0.02), ball(20)})
+  for (const auto& queries : {random_reflection_queries(query_count, 11, 0.02), ball(14)})
     for (double r : {0.3, 0.4, 0.5, 0.6, 0.7}) {
       const std::vector<double> truth = reflect_brute_force(map, make_ggx_brdf(r * r, f0), queries);
       const Errors plain = errors_of(SplitSum{chain, f0, r * r}, queries, truth);
@@ -113,17 +112,13 @@ void bench_map(bench::Report& report, const std::string& source, const Stretched
 
 int main(int argc, char** argv) {
   bench::Report report;
-  StretchedTapsOptions options;
-  if(getenv("TAPS")) options.taps=atoi(getenv("TAPS"));
-  if(getenv("POW")) options.light_power=atof(getenv("POW"));
-  if(getenv("NX")) options.cos_size=options.roughness_size=atoi(getenv("NX"));
   StretchedTapsTable table;
-  const auto time = bench::measure(1, [&] { table = make_stretched_taps_table(options); });
+  const auto time = bench::measure(1, [&] { table = make_stretched_taps_table(ChainShape{}); });
   report.note(fmt::format("table {:.2f} s", time.best));
   std::array<Total, 10> totals;
   std::vector<std::string> sources(argv + 1, argv + argc);
-  if (sources.empty()) sources = {"sky:day", "sky:studio"};
-  for (const std::string& s : sources) bench_map(report, s, table, getenv("LEV")?atoi(getenv("LEV")):0,getenv("SIZE")?atoi(getenv("SIZE")):256, totals);
+  if (sources.empty()) sources = {"sky:day,elevation=30", "sky:studio"};
+  for (const std::string& s : sources) bench_map(report, s, table, totals);
   report.note("all");
   for (int i = 0; i < 10; ++i)
     report.note(fmt::format("{} r {:.1f} {}", i < 5 ? "cos " : "ball", 0.3 + 0.1 * (i % 5),
