@@ -1,6 +1,7 @@
 #include <welkin/image/codecs/bc6h/encode_block.h>
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include <welkin/image/codecs/bc6h/quantise.h>
@@ -10,8 +11,10 @@ namespace {
 
 /// How far each speed goes.
 struct Effort {
-  int partitions;    // tried in earnest, best estimate first
-  int line_rounds;   // least squares before quantisation
+  int partitions;    // tried in earnest, best estimate first,
+  float hope;        // while their estimates are below this times the best cost,
+  float slack;       // in all modes when their lines' cost is below this times the best cost
+  int line_rounds;   // of least squares before quantisation
   bool all_modes;    // or only the finest that holds the ends
   int refined;       // candidates refined
   int refit_rounds;  // see refit
@@ -19,10 +22,12 @@ struct Effort {
   int single_rounds;  // for the best candidate
 };
 
+constexpr float unlimited = 1e30f;
+
 constexpr Effort effort_of(Bc6hSpeed speed) {
-  if (speed == Bc6hSpeed::fast) return {2, 1, false, 1, 1, 0, 0, 0};
-  if (speed == Bc6hSpeed::normal) return {8, 1, true, 2, 2, 1, 2, 0};
-  return {32, 3, true, 12, 3, 2, 4, 4};
+  if (speed == Bc6hSpeed::fast) return {1, 0.5f, unlimited, 0, false, 1, 1, 0, 0, 0};
+  if (speed == Bc6hSpeed::normal) return {6, 1, 1, 1, true, 2, 2, 1, 2, 0};
+  return {32, unlimited, 1.1f, 2, true, 8, 2, 1, 4, 4};
 }
 
 // From the finest to the one that holds any ends.
@@ -35,12 +40,14 @@ struct Lines {
   float cost = 0;              // before quantisation
 };
 
-// Fits a line to one subset: principal axis, then least squares for the indices that it gives.
+// Fits a line to one subset: principal axis, then least squares for the indices that it gives. With 0 rounds the last
+// step is taken unseen, which nearly always helps.
 float fit_line(const Targets& targets, const Lanes& member, int levels, int anchor, int rounds, Line& line,
                bool& swap) {
   line = principal_line(targets, member);
   IntLanes indices;
   float cost = assign(targets, member, rounded(line, targets.is_signed), levels, indices);
+  if (rounds == 0) line = least_squares(targets, member, indices, levels, line);
   for (int round = 0; round < rounds; ++round) {
     const Line next = least_squares(targets, member, indices, levels, line);
     IntLanes next_indices;
@@ -100,11 +107,13 @@ void try_modes(const Targets& targets, const Lines& fit, int partition, const st
   }
 }
 
-std::array<int, partition_count> by_estimate(const std::array<float, partition_count>& estimates) {
+// The `count` partitions of the lowest estimates come first, in order.
+std::array<int, partition_count> by_estimate(const std::array<float, partition_count>& estimates, int count) {
   std::array<int, partition_count> order{};
-  for (int p = 0; p < partition_count; ++p) order[static_cast<std::size_t>(p)] = p;
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return estimates[static_cast<std::size_t>(a)] < estimates[static_cast<std::size_t>(b)];
+  std::iota(order.begin(), order.end(), 0);
+  std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](int a, int b) {
+    const float ea = estimates[static_cast<std::size_t>(a)], eb = estimates[static_cast<std::size_t>(b)];
+    return ea < eb || (ea == eb && a < b);
   });
   return order;
 }
@@ -112,13 +121,12 @@ std::array<int, partition_count> by_estimate(const std::array<float, partition_c
 void try_partitions(const Targets& targets, const Effort& effort, Shortlist& list) {
   std::array<float, partition_count> estimates{};
   rank_partitions(targets, estimates);
-  const std::array<int, partition_count> order = by_estimate(estimates);
+  const std::array<int, partition_count> order = by_estimate(estimates, effort.partitions);
   for (int i = 0; i < effort.partitions; ++i) {
     const int partition = order[static_cast<std::size_t>(i)];
-    const bool hopeless = estimates[static_cast<std::size_t>(partition)] > list.best().cost;
-    if (hopeless && effort.partitions < partition_count) break;
+    if (estimates[static_cast<std::size_t>(partition)] > effort.hope * list.best().cost) break;
     const Lines fit = fit_lines(targets, 2, partition, effort.line_rounds);
-    if (fit.cost > list.worst()) continue;
+    if (effort.line_rounds > 0 && fit.cost > effort.slack * list.best().cost) continue;
     try_modes(targets, fit, partition, two_subset_modes, effort.all_modes, list);
   }
 }

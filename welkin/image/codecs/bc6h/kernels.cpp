@@ -9,30 +9,28 @@ namespace welkin::bc6h {
 namespace {
 
 constexpr std::array<int, 16> weights_of_8 = {0, 9, 18, 27, 37, 46, 55, 64, 64, 64, 64, 64, 64, 64, 64, 64};
-constexpr float unit_floor = 1e-30f;  // keeps divisions by sums of weights finite
+constexpr float out_of_reach = 3.2e7f;  // on the error scale: its square is `forbidden`
+constexpr float unit_floor = 1e-30f;    // keeps divisions by sums of weights finite
 
-[[gnu::always_inline]] inline IntLanes weight_lanes(int levels) {
-  IntLanes lanes{};
-  const std::array<int, 16>& weights = levels == 8 ? weights_of_8 : weights4;
-  for (int k = 0; k < 16; ++k) lanes[k] = weights[static_cast<std::size_t>(k)];
-  return lanes;
+WELKIN_INLINE IntLanes weight_lanes(int levels) {
+  return load(levels == 8 ? weights_of_8.data() : weights4.data());
 }
 
-// One channel of the palette as halves, sign and magnitude.
-[[gnu::always_inline]] inline IntLanes palette_halves(int first, int second, const IntLanes& weights,
-                                                      bool is_signed) {
-  const IntLanes position = ((64 - weights) * first + weights * second + 32) >> 6;
-  const IntLanes magnitude = ((position < 0 ? -position : position) * 31) >> (is_signed ? 5 : 6);
-  return position < 0 ? -magnitude : magnitude;
-}
-
-// Levels of the palette; `forbidden` levels (so far that squaring gives `forbidden`) where a magnitude exceeds limit.
-[[gnu::always_inline]] inline Lanes palette_levels(const IntLanes& halves, int limit) {
+// One channel of the palette on the error scale; `out_of_reach` where a magnitude exceeds limit. The interpolation is
+// first + weight (second - first) in the specification's words.
+WELKIN_INLINE Lanes palette_levels(int first, int second, const IntLanes& weights, int limit,
+                                   bool is_signed) {
+  const IntLanes position = (weights * (second - first) + broadcast(64 * first + 32)) >> 6;
+  const IntLanes half = (magnitude(position) * 31) >> (is_signed ? 5 : 6);
+  int halves[16], positions[16];
+  float levels[16];
+  store(half, halves), store(position, positions);
   const float* scale = error_scale();
-  Lanes levels{};
-  for (int k = 0; k < 16; ++k) levels[k] = scale[halves[k]];
-  const IntLanes above = (halves > limit) | (halves < -limit);
-  return above ? broadcast(3.2e7f) : levels;
+  for (int k = 0; k < 16; ++k) {
+    const float level = halves[k] > limit ? out_of_reach : scale[halves[k]];
+    levels[k] = positions[k] < 0 ? -level : level;
+  }
+  return load(levels);
 }
 
 struct Moments {
@@ -41,26 +39,26 @@ struct Moments {
 
 // trace - (1 - share) * the largest eigenvalue of the scatter matrix, per lane. Power iteration from the row of the
 // largest diagonal entry.
-[[gnu::always_inline]] inline Lanes residual(const Moments& m, float share) {
-  const Lanes inverse = 1.0f / (m.n + unit_floor);
+WELKIN_INLINE Lanes residual(const Moments& m, float share) {
+  const Lanes inverse = broadcast(1.0f) / (m.n + unit_floor);
   const Lanes xx = m.xx - m.x * m.x * inverse, yy = m.yy - m.y * m.y * inverse,
               zz = m.zz - m.z * m.z * inverse;
   const Lanes xy = m.xy - m.x * m.y * inverse, xz = m.xz - m.x * m.z * inverse,
               yz = m.yz - m.y * m.z * inverse;
-  const IntLanes x_largest = (xx >= yy) & (xx >= zz), y_largest = (yy >= zz) & ~x_largest;
-  Lanes u = x_largest ? xx : (y_largest ? xy : xz);
-  Lanes v = x_largest ? xy : (y_largest ? yy : yz);
-  Lanes w = x_largest ? xz : (y_largest ? yz : zz);
-  Lanes top{};
+  const IntLanes y_over_x = xx < yy, z_largest = maximum(xx, yy) < zz;
+  Lanes u = select(z_largest, xz, select(y_over_x, xy, xx));
+  Lanes v = select(z_largest, yz, select(y_over_x, yy, xy));
+  Lanes w = select(z_largest, zz, select(y_over_x, yz, xz));
+  Lanes top;
   for (int round = 0; round < 3; ++round) {
-    const Lanes largest = maximum(maximum(u < 0 ? -u : u, v < 0 ? -v : v), w < 0 ? -w : w);
-    const Lanes scale = 1.0f / (largest + unit_floor);
-    u *= scale, v *= scale, w *= scale;
+    const Lanes largest = maximum(maximum(magnitude(u), magnitude(v)), magnitude(w));
+    const Lanes scale = broadcast(1.0f) / (largest + unit_floor);
+    u = u * scale, v = v * scale, w = w * scale;
     const Lanes a = xx * u + xy * v + xz * w, b = xy * u + yy * v + yz * w, c = xz * u + yz * v + zz * w;
     top = (a * u + b * v + c * w) / (u * u + v * v + w * w + unit_floor);
     u = a, v = b, w = c;
   }
-  return maximum(xx + yy + zz - (1 - share) * top, Lanes{});
+  return maximum(xx + yy + zz - top * (1 - share), Lanes{});
 }
 
 struct Membership {
@@ -69,16 +67,18 @@ struct Membership {
 };
 
 Membership make_membership() {
-  Membership result{};
+  float second[partition_count][16] = {}, first[partition_count][16] = {}, by_texel[16][partition_count] = {};
   for (int p = 0; p < partition_count; ++p) {
     for (int t = 0; t < texel_count; ++t) {
-      const int second = (partitions[static_cast<std::size_t>(p)] >> t) & 1;
-      result.of_subset[static_cast<std::size_t>(p)][0][t] = static_cast<float>(1 - second);
-      result.of_subset[static_cast<std::size_t>(p)][1][t] = static_cast<float>(second);
-      result.second_by_texel[static_cast<std::size_t>(t)][static_cast<std::size_t>(p / 16)][p % 16] =
-          static_cast<float>(second);
+      const int bit = (partitions[static_cast<std::size_t>(p)] >> t) & 1;
+      second[p][t] = by_texel[t][p] = static_cast<float>(bit);
+      first[p][t] = static_cast<float>(1 - bit);
     }
   }
+  Membership result{};
+  for (std::size_t p = 0; p < partition_count; ++p) result.of_subset[p] = {load(first[p]), load(second[p])};
+  for (std::size_t t = 0; t < 16; ++t)
+    result.second_by_texel[t] = {load(by_texel[t]), load(by_texel[t] + 16)};
   return result;
 }
 
@@ -94,11 +94,11 @@ struct Scaled {
   Lanes weight;
 };
 
-[[gnu::always_inline]] inline Scaled scaled_positions(const Targets& targets, const Lanes& member) {
+WELKIN_INLINE Scaled scaled_positions(const Targets& targets, const Lanes& member) {
   Scaled s{};
   const Lanes mean = (targets.weight[0] + targets.weight[1] + targets.weight[2]) * member;
   const float total = sum(mean) + unit_floor;
-  s.weight = mean / total;
+  s.weight = mean * (1 / total);
   for (std::size_t c = 0; c < 3; ++c) {
     s.unit[c] = std::sqrt(sum(targets.weight[c] * member)) + unit_floor;
     s.value[c] = targets.position[c] * s.unit[c];
@@ -106,8 +106,7 @@ struct Scaled {
   return s;
 }
 
-[[gnu::always_inline]] inline std::array<float, 3> principal_axis(const std::array<Lanes, 3>& d,
-                                                                  const Lanes& weight) {
+WELKIN_INLINE std::array<float, 3> principal_axis(const std::array<Lanes, 3>& d, const Lanes& weight) {
   const float xx = sum(d[0] * d[0] * weight), yy = sum(d[1] * d[1] * weight), zz = sum(d[2] * d[2] * weight);
   const float xy = sum(d[0] * d[1] * weight), xz = sum(d[0] * d[2] * weight), yz = sum(d[1] * d[2] * weight);
   float u = xx, v = xy, w = xz;
@@ -130,27 +129,27 @@ const Lanes& member_of(int partition, int subset) {
 }
 
 const Lanes& all_members() {
-  static const Lanes ones = broadcast(1);
+  static const Lanes ones = broadcast(1.0f);
   return ones;
 }
 
 WELKIN_TARGET_CLONES float assign(const Targets& targets, const Lanes& member, const Ends& ends, int levels,
                                   IntLanes& indices) {
   const IntLanes weights = weight_lanes(levels);
-  std::array<Lanes, 3> palette;
+  float palette[3][16];
   for (std::size_t c = 0; c < 3; ++c) {
-    palette[c] = palette_levels(palette_halves(ends.first[c], ends.second[c], weights, targets.is_signed),
-                                targets.limit[c]);
+    store(palette_levels(ends.first[c], ends.second[c], weights, targets.limit[c], targets.is_signed),
+          palette[c]);
   }
   const Lanes red = targets.level[0], green = targets.level[1], blue = targets.level[2];
   Lanes best = broadcast(1e30f);
-  IntLanes chosen{};
+  IntLanes chosen;
   for (int k = 0; k < levels; ++k) {
     const Lanes r = red - palette[0][k], g = green - palette[1][k], b = blue - palette[2][k];
     const Lanes distance = r * r + g * g + b * b;
     const IntLanes closer = distance < best;
-    best = closer ? distance : best;
-    chosen = closer ? IntLanes{} + k : chosen;
+    best = select(closer, distance, best);
+    chosen = select(closer, broadcast(k), chosen);
   }
   indices = chosen;
   return sum(best * member * targets.importance);
@@ -166,7 +165,7 @@ WELKIN_TARGET_CLONES Line principal_line(const Targets& targets, const Lanes& me
   }
   const std::array<float, 3> axis = principal_axis(d, s.weight);
   const Lanes along = (d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2]) * member;  // others at 0, inside
-  const float low = smallest(along), high = -smallest(-along);
+  const float low = smallest(along), high = -smallest(Lanes{} - along);
   Line line;
   for (std::size_t c = 0; c < 3; ++c) {
     line.first[c] = (mean[c] + low * axis[c]) / s.unit[c];
@@ -178,11 +177,13 @@ WELKIN_TARGET_CLONES Line principal_line(const Targets& targets, const Lanes& me
 WELKIN_TARGET_CLONES Line least_squares(const Targets& targets, const Lanes& member, const IntLanes& indices,
                                         int levels, const Line& fallback) {
   const std::array<int, 16>& weights = levels == 8 ? weights_of_8 : weights4;
-  Lanes second{};
+  int index[16];
+  float share[16];
+  store(indices, index);
   for (int t = 0; t < 16; ++t) {
-    second[t] = static_cast<float>(weights[static_cast<std::size_t>(indices[t])]) * (1.0f / 64);
+    share[t] = static_cast<float>(weights[static_cast<std::size_t>(index[t])]) * (1.0f / 64);
   }
-  const Lanes first = 1.0f - second;
+  const Lanes second = load(share), first = broadcast(1.0f) - second;
   Line line = fallback;
   for (std::size_t c = 0; c < 3; ++c) {
     const Lanes w = targets.weight[c] * member;
@@ -217,35 +218,41 @@ WELKIN_TARGET_CLONES float rank_partitions(const Targets& targets,
     return Moments{v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9]};
   };
   std::array<Lanes, 10> total;
-  for (std::size_t q = 0; q < 10; ++q) total[q] = broadcast(sum(terms[q]));
+  float term[10][16];
+  for (std::size_t q = 0; q < 10; ++q) {
+    total[q] = broadcast(sum(terms[q]));
+    store(terms[q], term[q]);
+  }
   const Membership& table = membership();
   for (std::size_t half = 0; half < 2; ++half) {
-    std::array<Lanes, 10> in_second{}, in_first;
-    for (int t = 0; t < 16; ++t) {
-      const Lanes& second = table.second_by_texel[static_cast<std::size_t>(t)][half];
-      for (std::size_t q = 0; q < 10; ++q) in_second[q] += second * terms[q][t];
+    std::array<Lanes, 10> in_second, in_first;
+    for (std::size_t q = 0; q < 10; ++q) {
+      Lanes partial;
+      for (std::size_t t = 0; t < 16; ++t) partial = partial + table.second_by_texel[t][half] * term[q][t];
+      in_second[q] = partial;
+      in_first[q] = total[q] - partial;
     }
-    for (std::size_t q = 0; q < 10; ++q) in_first[q] = total[q] - in_second[q];
     constexpr float on_axis = 1.0f / 49;  // 7 steps: of a uniform spread, (1/7)^2 of the variance is left
     const Lanes both = residual(moments_of(in_first), on_axis) + residual(moments_of(in_second), on_axis);
-    for (int p = 0; p < 16; ++p) estimates[16 * half + static_cast<std::size_t>(p)] = both[p];
+    store(both, estimates.data() + 16 * half);
   }
   return residual(moments_of(total), 1.0f / 225)[0];
 }
 
 IndexStatistics index_statistics(const Lanes& level, const Lanes& member, const IntLanes& indices) {
-  IndexStatistics result{};
+  float values[16], weights[16], count[16] = {}, total[16] = {};
+  int index[16];
+  store(level, values), store(member, weights), store(indices, index);
   for (int t = 0; t < 16; ++t) {
-    result.count[indices[t]] += member[t];
-    result.mean[indices[t]] += member[t] * level[t];
+    count[index[t]] += weights[t];
+    total[index[t]] += weights[t] * values[t];
   }
-  result.mean /= result.count + unit_floor;
-  return result;
+  return {load(count), load(total) / (load(count) + unit_floor)};
 }
 
 WELKIN_TARGET_CLONES float channel_cost(const IndexStatistics& statistics, int first, int second, int levels,
                                         int limit, bool is_signed) {
-  const Lanes palette = palette_levels(palette_halves(first, second, weight_lanes(levels), is_signed), limit);
+  const Lanes palette = palette_levels(first, second, weight_lanes(levels), limit, is_signed);
   const Lanes d = palette - statistics.mean;
   return sum(statistics.count * d * d);
 }

@@ -52,9 +52,9 @@ float settle_anchor(const Targets& targets, BlockCode& code, int subset) {
 }
 
 IntLanes index_lanes(const BlockCode& code) {
-  IntLanes lanes{};
-  for (int t = 0; t < texel_count; ++t) lanes[t] = code.indices[static_cast<std::size_t>(t)];
-  return lanes;
+  int indices[texel_count];
+  for (int t = 0; t < texel_count; ++t) indices[t] = code.indices[static_cast<std::size_t>(t)];
+  return load(indices);
 }
 
 bool channel_fits(const BlockCode& code, std::size_t c) {

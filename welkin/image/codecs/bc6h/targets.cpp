@@ -26,19 +26,21 @@ Targets make_targets(const int halves[48], const float importance[16], bool is_s
   const int whole = is_signed ? 32 : 64;  // 31 halves take so many positions
   Targets targets{};
   targets.is_signed = is_signed;
-  for (int t = 0; t < 16; ++t) targets.importance[t] = importance[t];
+  targets.importance = load(importance);
   for (std::size_t c = 0; c < 3; ++c) {
+    float level[16], position[16], weight[16];
     for (int t = 0; t < 16; ++t) {
       const int half = halves[3 * t + static_cast<int>(c)];
       const int magnitude = std::abs(half);
       const float slope = (scale[magnitude + 1] - scale[magnitude]) * (31.0f / static_cast<float>(whole));
       const int low = (whole * magnitude + 30) / 31, high = (whole * (magnitude + 1) + 30) / 31 - 1;
       const float middle = 0.5f * static_cast<float>(low + high);
-      targets.level[c][t] = scale[half];
-      targets.position[c][t] = half < 0 ? -middle : middle;
-      targets.weight[c][t] = importance[t] * slope * slope;
+      level[t] = scale[half];
+      position[t] = half < 0 ? -middle : middle;
+      weight[t] = importance[t] * slope * slope;
       targets.limit[c] = std::max(targets.limit[c], magnitude);
     }
+    targets.level[c] = load(level), targets.position[c] = load(position), targets.weight[c] = load(weight);
   }
   return targets;
 }
