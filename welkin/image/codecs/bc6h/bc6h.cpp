@@ -12,12 +12,10 @@
 namespace welkin {
 namespace {
 
-constexpr float equal_importance[16] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-
 std::size_t blocks_of(int texels) { return (static_cast<std::size_t>(texels) + 3) / 4; }
 
 Bc6hBlock encode_halves(const int halves[48], const Bc6hOptions& options) {
-  const bc6h::Targets targets = bc6h::make_targets(halves, equal_importance, options.is_signed);
+  const bc6h::Targets targets = bc6h::make_targets(halves, bc6h::equal_importance, options.is_signed);
   return bc6h::pack(bc6h::encode(targets, options.speed).code);
 }
 

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include <welkin/image/image.h>
+
 // BC6H (BPTC float): 4 x 4 texels of three half floats in 16 bytes, 1 byte a texel, as Khronos Data Format
 // Specification 1.3, section 20.2, and Direct3D 11 define it. Encoder and decoder are welkin's own.
 
@@ -40,6 +42,16 @@ std::size_t bc6h_bytes(int width, int height);
 /// on their number.
 std::size_t encode_bc6h(std::span<const float> pixels, int width, int height, int channels, float factor,
                         const Bc6hOptions& options, std::span<std::uint8_t> out);
+
+/// Encodes the six faces of a cube (channels 3 or 4) as encode_bc6h does, one after the other in `out`, which has 6
+/// bc6h_bytes(size, size) elements. With shared_edges, texels on either side of an edge between faces decode to the same
+/// values, for samplers that do not filter across faces: the input should hold equal texels there (edge fix-up); where
+/// they differ, both become the mean. The blocks along an edge then take partitions that split off their edge, and both
+/// faces code it with the same ends and indices: exactly equal. The blocks in the corners, and every block where
+/// size is not a multiple of 4 or is below 8, cannot be split so: they are coded in turns towards each other, and
+/// nearly equal. Returns how many values were clipped.
+std::size_t encode_bc6h_cube(const Cube& cube, float factor, const Bc6hOptions& options, bool shared_edges,
+                             std::span<std::uint8_t> out);
 
 /// The reverse, into three floats a texel, each multiplied by `factor`. blocks.size() == bc6h_bytes(width, height),
 /// rgb.size() == 3 * width * height. Runs on all threads.

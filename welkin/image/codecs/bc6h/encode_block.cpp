@@ -40,25 +40,6 @@ struct Lines {
   float cost = 0;              // before quantisation
 };
 
-// Fits a line to one subset: principal axis, then least squares for the indices that it gives. With 0 rounds the last
-// step is taken unseen, which nearly always helps.
-float fit_line(const Targets& targets, const Lanes& member, int levels, int anchor, int rounds, Line& line,
-               bool& swap) {
-  line = principal_line(targets, member);
-  IntLanes indices;
-  float cost = assign(targets, member, rounded(line, targets.is_signed), levels, indices);
-  if (rounds == 0) line = least_squares(targets, member, indices, levels, line);
-  for (int round = 0; round < rounds; ++round) {
-    const Line next = least_squares(targets, member, indices, levels, line);
-    IntLanes next_indices;
-    const float next_cost = assign(targets, member, rounded(next, targets.is_signed), levels, next_indices);
-    if (next_cost >= cost) break;
-    cost = next_cost, line = next, indices = next_indices;
-  }
-  swap = indices[anchor] >= levels / 2;
-  return cost;
-}
-
 Lines fit_lines(const Targets& targets, int subsets, int partition, int rounds) {
   Lines result;
   for (int s = 0; s < subsets; ++s) {
@@ -132,6 +113,23 @@ void try_partitions(const Targets& targets, const Effort& effort, Shortlist& lis
 }
 
 }  // namespace
+
+float fit_line(const Targets& targets, const Lanes& member, int levels, int anchor, int rounds, Line& line,
+               bool& swap) {
+  line = principal_line(targets, member);
+  IntLanes indices;
+  float cost = assign(targets, member, rounded(line, targets.is_signed), levels, indices);
+  if (rounds == 0) line = least_squares(targets, member, indices, levels, line);
+  for (int round = 0; round < rounds; ++round) {
+    const Line next = least_squares(targets, member, indices, levels, line);
+    IntLanes next_indices;
+    const float next_cost = assign(targets, member, rounded(next, targets.is_signed), levels, next_indices);
+    if (next_cost >= cost) break;
+    cost = next_cost, line = next, indices = next_indices;
+  }
+  swap = indices[anchor] >= levels / 2;
+  return cost;
+}
 
 Candidate encode(const Targets& targets, Bc6hSpeed speed) {
   const Effort effort = effort_of(speed);

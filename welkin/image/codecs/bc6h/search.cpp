@@ -21,36 +21,6 @@ float texel_cost(const Targets& targets, const Ends& ends, int weight, int texel
   return cost * targets.importance[texel];
 }
 
-void swap_ends(BlockCode& code, int subset) {
-  const auto e = static_cast<std::size_t>(2 * subset);
-  std::swap(code.endpoints[e], code.endpoints[e + 1]);
-  const int last = mode_of(code).levels() - 1;
-  for (int t = 0; t < texel_count; ++t) {
-    auto& index = code.indices[static_cast<std::size_t>(t)];
-    if (subset_of(code, t) == subset) index = static_cast<std::uint8_t>(last - index);
-  }
-}
-
-// The anchor's highest index bit is not stored. Returns by how much that raises the cost.
-float settle_anchor(const Targets& targets, BlockCode& code, int subset) {
-  const Mode& mode = mode_of(code);
-  const int anchor = anchor_of(code, subset), half = mode.levels() / 2;
-  auto& index = code.indices[static_cast<std::size_t>(anchor)];
-  if (index < half) return 0;
-  swap_ends(code, subset);
-  if (offsets_fit(code)) return 0;
-  swap_ends(code, subset);
-  const Ends ends = ends_of(code, subset, targets.is_signed);
-  const int* weights = mode.subsets == 2 ? weights3.data() : weights4.data();
-  const float before = texel_cost(targets, ends, weights[index], anchor);
-  float best = 4 * forbidden;
-  for (int k = 0; k < half; ++k) {
-    const float cost = texel_cost(targets, ends, weights[k], anchor);
-    if (cost < best) best = cost, index = static_cast<std::uint8_t>(k);
-  }
-  return best - before;
-}
-
 IntLanes index_lanes(const BlockCode& code) {
   int indices[texel_count];
   for (int t = 0; t < texel_count; ++t) indices[t] = code.indices[static_cast<std::size_t>(t)];
@@ -114,17 +84,56 @@ const Lanes& members(const BlockCode& code, int subset) {
   return mode_of(code).subsets == 1 ? all_members() : member_of(code.partition, subset);
 }
 
+void swap_ends(BlockCode& code, int subset) {
+  const auto e = static_cast<std::size_t>(2 * subset);
+  std::swap(code.endpoints[e], code.endpoints[e + 1]);
+  const int last = mode_of(code).levels() - 1;
+  for (int t = 0; t < texel_count; ++t) {
+    auto& index = code.indices[static_cast<std::size_t>(t)];
+    if (subset_of(code, t) == subset) index = static_cast<std::uint8_t>(last - index);
+  }
+}
+
+float settle_anchor(const Targets& targets, BlockCode& code, int subset) {
+  const Mode& mode = mode_of(code);
+  const int anchor = anchor_of(code, subset), half = mode.levels() / 2;
+  auto& index = code.indices[static_cast<std::size_t>(anchor)];
+  if (index < half) return 0;
+  swap_ends(code, subset);
+  if (offsets_fit(code)) return 0;
+  swap_ends(code, subset);
+  const Ends ends = ends_of(code, subset, targets.is_signed);
+  const int* weights = mode.subsets == 2 ? weights3.data() : weights4.data();
+  const float before = texel_cost(targets, ends, weights[index], anchor);
+  float best = 4 * forbidden;
+  for (int k = 0; k < half; ++k) {
+    const float cost = texel_cost(targets, ends, weights[k], anchor);
+    if (cost < best) best = cost, index = static_cast<std::uint8_t>(k);
+  }
+  return best - before;
+}
+
+float assign_subset(const Targets& targets, BlockCode& code, int subset) {
+  IntLanes lanes;
+  int indices[texel_count];
+  const float cost = assign(targets, members(code, subset), ends_of(code, subset, targets.is_signed),
+                            mode_of(code).levels(), lanes);
+  store(lanes, indices);
+  for (int t = 0; t < texel_count; ++t) {
+    if (subset_of(code, t) == subset)
+      code.indices[static_cast<std::size_t>(t)] = static_cast<std::uint8_t>(indices[t]);
+  }
+  return cost;
+}
+
+void best_pairs(const Targets& targets, BlockCode& code, int subset, int radius) {
+  for (std::size_t c = 0; c < 3; ++c) best_pair(targets, code, subset, c, radius);
+}
+
 float evaluate(const Targets& targets, BlockCode& code) {
   const Mode& mode = mode_of(code);
   float cost = 0;
-  for (int s = 0; s < mode.subsets; ++s) {
-    IntLanes indices;
-    cost += assign(targets, members(code, s), ends_of(code, s, targets.is_signed), mode.levels(), indices);
-    for (int t = 0; t < texel_count; ++t) {
-      if (subset_of(code, t) == s)
-        code.indices[static_cast<std::size_t>(t)] = static_cast<std::uint8_t>(indices[t]);
-    }
-  }
+  for (int s = 0; s < mode.subsets; ++s) cost += assign_subset(targets, code, s);
   for (int s = 0; s < mode.subsets; ++s) cost += settle_anchor(targets, code, s);
   return cost;
 }
@@ -153,9 +162,7 @@ void refit(const Targets& targets, Candidate& candidate, int rounds) {
 void refine_pairs(const Targets& targets, Candidate& candidate, int radius, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     BlockCode code = candidate.code;
-    for (int s = 0; s < mode_of(code).subsets; ++s) {
-      for (std::size_t c = 0; c < 3; ++c) best_pair(targets, code, s, c, radius);
-    }
+    for (int s = 0; s < mode_of(code).subsets; ++s) best_pairs(targets, code, s, radius);
     if (!accept_if_better(targets, code, candidate)) return;
   }
 }

@@ -16,6 +16,8 @@ struct Targets {
   bool is_signed = false;
 };
 
+inline constexpr float equal_importance[16] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+
 /// From 16 texels of halves as sign and magnitude in one integer (no infinities), r g b.
 Targets make_targets(const int halves[48], const float importance[16], bool is_signed);
 
