@@ -142,7 +142,7 @@ TEST(Bc6hCube, NeverBrighterThanItsBlockAlongEdges) {
     cube.texels[random() % cube.texels.size()] = 50000;  // fireflies, also on edges
   std::vector<std::uint8_t> blocks;
   const Cube back = through(cube, true, blocks);
-  const auto largest = [size](const Cube& of, int face, int bx, int by, int c) {
+  const auto largest = [](const Cube& of, int face, int bx, int by, int c) {
     float most = 0;
     for (int t = 0; t < 16; ++t) most = std::max(most, of.at(face, 4 * bx + t % 4, 4 * by + t / 4)[c]);
     return most;

@@ -18,14 +18,13 @@ WELKIN_INLINE IntLanes weight_lanes(int levels) {
 
 // One channel of the palette on the error scale; `out_of_reach` where a magnitude exceeds limit. The interpolation is
 // first + weight (second - first) in the specification's words.
-WELKIN_INLINE Lanes palette_levels(int first, int second, const IntLanes& weights, int limit,
-                                   bool is_signed) {
+WELKIN_INLINE Lanes palette_levels(const float* scale, int first, int second, const IntLanes& weights,
+                                   int limit, bool is_signed) {
   const IntLanes position = (weights * (second - first) + broadcast(64 * first + 32)) >> 6;
   const IntLanes half = (magnitude(position) * 31) >> (is_signed ? 5 : 6);
   int halves[16], positions[16];
   float levels[16];
   store(half, halves), store(position, positions);
-  const float* scale = error_scale();
   for (int k = 0; k < 16; ++k) {
     const float level = halves[k] > limit ? out_of_reach : scale[halves[k]];
     levels[k] = positions[k] < 0 ? -level : level;
@@ -138,7 +137,8 @@ WELKIN_TARGET_CLONES float assign(const Targets& targets, const Lanes& member, c
   const IntLanes weights = weight_lanes(levels);
   float palette[3][16];
   for (std::size_t c = 0; c < 3; ++c) {
-    store(palette_levels(ends.first[c], ends.second[c], weights, targets.limit[c], targets.is_signed),
+    store(palette_levels(targets.scale, ends.first[c], ends.second[c], weights, targets.limit[c],
+                         targets.is_signed),
           palette[c]);
   }
   const Lanes red = targets.level[0], green = targets.level[1], blue = targets.level[2];
@@ -252,7 +252,7 @@ IndexStatistics index_statistics(const Lanes& level, const Lanes& member, const 
 
 WELKIN_TARGET_CLONES float channel_cost(const IndexStatistics& statistics, int first, int second, int levels,
                                         int limit, bool is_signed) {
-  const Lanes palette = palette_levels(first, second, weight_lanes(levels), limit, is_signed);
+  const Lanes palette = palette_levels(error_scale(), first, second, weight_lanes(levels), limit, is_signed);
   const Lanes d = palette - statistics.mean;
   return sum(statistics.count * d * d);
 }

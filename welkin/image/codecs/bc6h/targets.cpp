@@ -26,6 +26,7 @@ Targets make_targets(const int halves[48], const float importance[16], bool is_s
   const int whole = is_signed ? 32 : 64;  // 31 halves take so many positions
   Targets targets{};
   targets.is_signed = is_signed;
+  targets.scale = scale;
   targets.importance = load(importance);
   for (std::size_t c = 0; c < 3; ++c) {
     float level[16], position[16], weight[16];

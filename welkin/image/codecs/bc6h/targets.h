@@ -13,6 +13,7 @@ struct Targets {
   std::array<Lanes, 3> weight;    // importance times (d level / d position)^2: the error of a small miss
   Lanes importance;               // 1, more for texels whose error counts more
   std::array<int, 3> limit;  // the largest magnitude of each channel, as a half: nothing may decode above it
+  const float* scale = nullptr;  // error_scale()
   bool is_signed = false;
 };
 
