@@ -67,7 +67,8 @@ TEST(SpinSynthesis, LocalCoefficientsGiveTheFunctionBack) {
   const Spectrum f = random_spectrum(degree, 3, 1);
   const SpinGrid grid = synthesize_spin(f, all_coefficients(degree, 3), 64, 128);
   std::mt19937 random(2);
-  std::vector<Vec3> centres = {{0, 1, 0}, {0, -1, 0}, normalized({1e-3, 1, 2e-3}), normalized({0.01, -1, -0.03})};
+  std::vector<Vec3> centres = {
+      {0, 1, 0}, {0, -1, 0}, normalized({1e-3, 1, 2e-3}), normalized({0.01, -1, -0.03})};
   for (int i = 0; i < 50; ++i) centres.push_back(random_direction(random));
   for (const Vec3 centre : centres) {
     const Vec3 omega = random_direction(random);

@@ -37,8 +37,9 @@ double starting_value(int m, int q, double log_cos, double log_sin) {
   const int j = std::max(std::abs(m), q);
   // Powers of c and s: for m = j they are j + q and j - q, for m = -j the other way; for q = j, j + m and j - m.
   const int power = std::abs(m) >= q ? (m >= 0 ? j + q : j - q) : j + m;
-  const double log_value = 0.5 * (std::lgamma(2.0 * j + 1) - std::lgamma(power + 1.0) - std::lgamma(2.0 * j - power + 1)) +
-                           power * log_cos + (2 * j - power) * log_sin;
+  const double log_value =
+      0.5 * (std::lgamma(2.0 * j + 1) - std::lgamma(power + 1.0) - std::lgamma(2.0 * j - power + 1)) +
+      power * log_cos + (2 * j - power) * log_sin;
   const bool odd_d = std::abs(m) >= q && m >= 0 && (j - q) % 2 != 0;
   const bool odd_signs = ((m > 0 ? m : 0) + q) % 2 != 0;
   return (odd_d != odd_signs ? -1 : 1) * std::exp(log_value);
@@ -109,11 +110,14 @@ struct SpinOrders {
   std::vector<Complex> orders;
   std::vector<double> table, weights;
 
-  Complex* at(int series, int lane) { return &orders[(static_cast<std::size_t>(series) * lanes + lane) * columns]; }
+  Complex* at(int series, int lane) {
+    return &orders[(static_cast<std::size_t>(series) * lanes + lane) * columns];
+  }
 };
 
 // weights[(pair * degrees + l - l0) * 4 + j]: real and imaginary parts of two series a pair.
-void fill_weights(const Spectrum& spectrum, std::span<const SpinFilter> filters, int m, int l0, SpinOrders& out) {
+void fill_weights(const Spectrum& spectrum, std::span<const SpinFilter> filters, int m, int l0,
+                  SpinOrders& out) {
   const int degrees = spectrum.max_degree - l0 + 1, channels = spectrum.channels;
   const int series = static_cast<int>(filters.size()) * channels;
   out.weights.assign(static_cast<std::size_t>((series + 1) / 2) * degrees * 4, 0.0);
@@ -144,7 +148,8 @@ void gather_spin_orders(const Spectrum& spectrum, std::span<const SpinFilter> fi
     const int place = m < 0 ? out.columns + m : m;
     for (int s = 0; s < series; ++s) {
       if (s % 2 == 0)
-        sum_degrees(&out.weights[static_cast<std::size_t>(s / 2) * degrees * 4], out.table.data(), degrees, sums);
+        sum_degrees(&out.weights[static_cast<std::size_t>(s / 2) * degrees * 4], out.table.data(), degrees,
+                    sums);
       const double* re = sums + (s % 2) * 2 * lanes;
       for (int i = 0; i < rows.count; ++i) out.at(s, i)[place] = phase * Complex(re[i], re[i + lanes]);
     }
@@ -152,7 +157,8 @@ void gather_spin_orders(const Spectrum& spectrum, std::span<const SpinFilter> fi
 }
 
 // The rows of one spin, by FFT; `first_slot` is where they stand in a texel.
-void write_rows(SpinOrders& orders, int filters, bool real, const RowBlock& rows, int first_slot, SpinGrid& grid) {
+void write_rows(SpinOrders& orders, int filters, bool real, const RowBlock& rows, int first_slot,
+                SpinGrid& grid) {
   const int channels = grid.channels, series = filters * channels, parts = real ? 1 : 2;
   RowFft fft(grid.columns, true);
   std::vector<Complex> lines(static_cast<std::size_t>(series) * grid.columns);
@@ -160,8 +166,9 @@ void write_rows(SpinOrders& orders, int filters, bool real, const RowBlock& rows
     for (int s = 0; s < series; ++s)
       fft.transform(orders.at(s, i), &lines[static_cast<std::size_t>(s) * grid.columns]);
     for (int column = 0; column < grid.columns; ++column) {
-      float* out = &grid.values[(static_cast<std::size_t>(rows.first + i) * grid.columns + column) * grid.stride() +
-                                first_slot * channels];
+      float* out =
+          &grid.values[(static_cast<std::size_t>(rows.first + i) * grid.columns + column) * grid.stride() +
+                       first_slot * channels];
       for (int s = 0; s < series; ++s) {
         const Complex value = lines[static_cast<std::size_t>(s) * grid.columns + column];
         float* slot = out + (s / channels) * parts * channels + s % channels;
@@ -180,11 +187,13 @@ Mat3 spin_frame(Vec3 direction) {
   return {{Vec3{direction.y * cos_b, -radius, direction.y * sin_b}, Vec3{-sin_b, 0, cos_b}, direction}};
 }
 
-SpinGrid synthesize_spin(const Spectrum& spectrum, std::span<const SpinFilter> filters, int rows, int columns) {
+SpinGrid synthesize_spin(const Spectrum& spectrum, std::span<const SpinFilter> filters, int rows,
+                         int columns) {
   assert(spectrum.max_degree <= max_spin_degree && rows >= 8 && rows % 2 == 0);
   assert(columns > 2 * spectrum.max_degree && columns % 2 == 0);
   SpinGrid grid{rows, columns, spectrum.channels, {}, {}};
-  for (const SpinFilter& filter : filters) grid.slot_spin.insert(grid.slot_spin.end(), filter.spin > 0 ? 2 : 1, filter.spin);
+  for (const SpinFilter& filter : filters)
+    grid.slot_spin.insert(grid.slot_spin.end(), filter.spin > 0 ? 2 : 1, filter.spin);
   grid.values.resize(static_cast<std::size_t>(rows) * columns * grid.stride());
   std::vector<Complex> phases(spectrum.max_degree + 1);
   for (int m = 0; m <= spectrum.max_degree; ++m) phases[m] = std::polar(1.0, m * (pi / columns - pi));

@@ -41,7 +41,8 @@ struct SpinGrid {
 
 /// All filters at once, O(rows max_degree^2) a filter; filters of equal spin stand together. The spectrum has at most
 /// max_spin_degree; rows >= 8 and columns > 2 max_degree are even. Same bits on any number of threads.
-SpinGrid synthesize_spin(const Spectrum& spectrum, std::span<const SpinFilter> filters, int rows, int columns);
+SpinGrid synthesize_spin(const Spectrum& spectrum, std::span<const SpinFilter> filters, int rows,
+                         int columns);
 
 /// The slots in a unit direction, in the frame spin_frame(direction), by 8 x 8 point Lagrange interpolation; out has
 /// stride() elements. Exact across the poles too: there the maps go on with the sign (-1)^q. For a component of degree

@@ -1,6 +1,7 @@
 #include <welkin/envmap/reflection/brdf_spectrum.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -20,28 +21,43 @@ namespace welkin {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr int lane_count = 8;  // rings that are summed together
+
+// Microfacet lobes get narrower across the plane of incidence in proportion to the cosine of the view; angular_width speaks
+// of 60 degrees. Views are sorted into levels, each with a quadrature twice as fine as the one before.
+constexpr int level_count = 4;
+
+int level_of(double cos_view) { return cos_view > 0.35 ? 0 : cos_view > 0.18 ? 1 : cos_view > 0.09 ? 2 : 3; }
 
 struct Rings {
   std::vector<double> cos_polar, weight;  // the weights hold the 2 pi of the azimuth's mean
   int samples = 0;                        // azimuths pi (k + 1/2)/samples
 
-  Rings(ReflectionFrame frame, int degree, int order, double angular_width) {
-    const int lobe = static_cast<int>(std::ceil(8 / std::max(angular_width, narrowest_brdf)));
-    const QuadratureRule rule = gauss_legendre(std::max(degree, lobe) + 16);
+  // About the normal cos = s^2 with Gauss-Legendre in s on [0, 1]: dense at the horizon, where grazing lobes lie and
+  // where only the azimuth needs more. About the mirrored view both do; the limit is for the time that takes.
+  Rings(ReflectionFrame frame, int degree, int order, double angular_width, int level) {
+    const double lobe = 8 / angular_width;
+    const double finer = std::min(lobe * (1 << level), std::max(lobe, 400.0));
+    const double polar = frame == ReflectionFrame::normal ? lobe : finer;
+    const QuadratureRule rule = gauss_legendre(std::max(degree, static_cast<int>(polar)) + 16);
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
       const bool half = frame == ReflectionFrame::normal;
-      cos_polar.push_back(half ? (1 + rule.nodes[i]) / 2 : rule.nodes[i]);
-      weight.push_back(2 * pi * (half ? rule.weights[i] / 2 : rule.weights[i]));
+      const double s = (1 + rule.nodes[i]) / 2;
+      cos_polar.push_back(half ? s * s : rule.nodes[i]);
+      weight.push_back(2 * pi * rule.weights[i] * (half ? s : 1));
     }
-    samples = std::max(order, lobe) + 16;
+    samples = std::max(order, static_cast<int>(finer)) + 16;
+    cos_polar.resize((weight.size() + lane_count - 1) / lane_count * lane_count, 0.0);
   }
-  int count() const { return static_cast<int>(cos_polar.size()); }
+  int count() const { return static_cast<int>(weight.size()); }
+  int padded() const { return static_cast<int>(cos_polar.size()); }  // whole blocks of lane_count
 };
 
 using Colour = std::array<double, 3>;
 
 // f cos+ for the light at (cos_polar, azimuth) of the frame.
-Colour sample(const IsotropicBrdf& brdf, ReflectionFrame frame, double cos_view, double cos_polar, double azimuth) {
+Colour sample(const IsotropicBrdf& brdf, ReflectionFrame frame, double cos_view, double cos_polar,
+              double azimuth) {
   if (frame == ReflectionFrame::normal) {
     Colour f = brdf.value(cos_polar, cos_view, azimuth);
     for (double& value : f) value *= cos_polar;
@@ -59,100 +75,118 @@ Colour sample(const IsotropicBrdf& brdf, ReflectionFrame frame, double cos_view,
   return f;
 }
 
-// One view: values[(ring * samples + k) * 3 + channel].
-std::vector<double> sample_view(const IsotropicBrdf& brdf, ReflectionFrame frame, double cos_view, const Rings& rings) {
-  std::vector<double> values(static_cast<std::size_t>(rings.count()) * rings.samples * 3);
-  for (int ring = 0; ring < rings.count(); ++ring) {
-    for (int k = 0; k < rings.samples; ++k) {
-      const Colour f = sample(brdf, frame, cos_view, rings.cos_polar[ring], pi * (k + 0.5) / rings.samples);
-      for (int c = 0; c < 3; ++c) {
-        if (!(f[c] >= 0 && std::isfinite(f[c]))) throw Error("the BRDF " + brdf.name + " has a value that is no number >= 0");
-        values[(static_cast<std::size_t>(ring) * rings.samples + k) * 3 + c] = f[c];
-      }
-    }
-  }
-  return values;
-}
-
-bool is_grey(const std::vector<std::vector<double>>& samples) {
-  for (const auto& view : samples)
-    for (std::size_t i = 0; i < view.size(); i += 3)
-      if (view[i] != view[i + 1] || view[i] != view[i + 2]) return false;
-  return true;
-}
+// One view while it is worked on.
+struct View {
+  bool grey = true;
+  std::vector<double> orders;  // [(q * 3 + channel) * rings.padded() + ring]: azimuth integrals times weights
+  std::vector<double> values;  // [pair * 3 + channel], pairs as in BrdfSpectrum
+  std::array<double, 3> energy{};  // integral of the square
+};
 
 WELKIN_TARGET_CLONES void add_scaled(double weight, const double* values, double* sums, int count) {
   for (int i = 0; i < count; ++i) sums[i] += weight * values[i];
 }
 
-// The mean over azimuth of a ring times cos(q phi), q = 0 .. max_order: out[q].
-void ring_orders(const double* ring, int channel, const std::vector<double>& cosines, int samples,
-                 std::span<double> out) {
-  std::fill(out.begin(), out.end(), 0.0);
-  for (int k = 0; k < samples; ++k) {
-    const double value = ring[k * 3 + channel];
-    if (value != 0)
-      add_scaled(value / samples, &cosines[static_cast<std::size_t>(k) * out.size()], out.data(),
-                 static_cast<int>(out.size()));
-  }
-}
-
-// orders[((q * channels + channel) * rings + ring) * views + view]
-using Orders = std::vector<double>;
-
-Orders azimuth_integrals(const std::vector<std::vector<double>>& samples, const Rings& rings, const BrdfSpectrum& shape) {
-  const int orders = shape.max_order + 1, views = shape.views();
-  std::vector<double> cosines(static_cast<std::size_t>(rings.samples) * orders);
-  for (int k = 0; k < rings.samples; ++k)
+// cosines[k * orders + q] = cos(q phi_k).
+std::vector<double> cosine_table(int samples, int orders) {
+  std::vector<double> cosines(static_cast<std::size_t>(samples) * orders);
+  for (int k = 0; k < samples; ++k)
     for (int q = 0; q < orders; ++q)
-      cosines[static_cast<std::size_t>(k) * orders + q] = std::cos(q * pi * (k + 0.5) / rings.samples);
-  Orders result(static_cast<std::size_t>(orders) * shape.channels * rings.count() * views);
-  parallel_for(rings.count(), 4, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> out(orders);
-    for (std::size_t ring = begin; ring < end; ++ring) {
-      for (int view = 0; view < views; ++view) {
-        for (int c = 0; c < shape.channels; ++c) {
-          ring_orders(&samples[view][ring * rings.samples * 3], c, cosines, rings.samples, out);
-          for (int q = 0; q < orders; ++q)
-            result[((static_cast<std::size_t>(q) * shape.channels + c) * rings.count() + ring) * views + view] = out[q];
-        }
-      }
-    }
-  });
-  return result;
+      cosines[static_cast<std::size_t>(k) * orders + q] = std::cos(q * pi * (k + 0.5) / samples);
+  return cosines;
 }
 
-// P_qq of the ring, then upwards in l by the recurrence of basis.h.
-void sum_rings(int q, const Rings& rings, const Orders& orders, BrdfSpectrum& out) {
-  const int views = out.views();
+// colours[k] of one ring; adds to the view's energy.
+void sample_ring(const IsotropicBrdf& brdf, ReflectionFrame frame, double cos_view, const Rings& rings,
+                 int ring, std::vector<Colour>& colours, View& view) {
+  for (int k = 0; k < rings.samples; ++k) {
+    const Colour f = sample(brdf, frame, cos_view, rings.cos_polar[ring], pi * (k + 0.5) / rings.samples);
+    for (int c = 0; c < 3; ++c) {
+      if (!(f[c] >= 0 && std::isfinite(f[c])))
+        throw Error("the BRDF " + brdf.name + " has a value that is no number >= 0");
+      view.energy[c] += rings.weight[ring] / rings.samples * f[c] * f[c];
+    }
+    view.grey = view.grey && f[0] == f[1] && f[0] == f[2];
+    colours[k] = f;
+  }
+}
+
+void integrate_azimuth(const IsotropicBrdf& brdf, ReflectionFrame frame, double cos_view, const Rings& rings,
+                       const std::vector<double>& cosines, int orders, View& view) {
+  std::vector<double> sums(orders);
+  std::vector<Colour> colours(rings.samples);
+  view.orders.assign(static_cast<std::size_t>(orders) * 3 * rings.padded(), 0.0);
   for (int ring = 0; ring < rings.count(); ++ring) {
-    const double x = rings.cos_polar[ring], sine = std::sqrt(1 - x * x);
-    double current = 0.5 / std::sqrt(pi), previous = 0, last_a = 0;
-    for (int m = 1; m <= q; ++m) current *= std::sqrt((2.0 * m + 1) / (2.0 * m)) * sine;
-    for (int l = q; l <= out.max_degree; ++l) {
-      if (l > q) {
-        const double a = std::sqrt((4.0 * l * l - 1) / (1.0 * l * l - 1.0 * q * q));
-        const double next = a * (x * current - (l > q + 1 ? previous / last_a : 0));
-        previous = current;
-        current = next;
-        last_a = a;
+    sample_ring(brdf, frame, cos_view, rings, ring, colours, view);
+    const double weight = rings.weight[ring] / rings.samples;
+    for (int c = 0; c < 3; ++c) {
+      if (c == 0 ||
+          !view.grey) {  // all rings up to here had equal channels: the last sums are those of this one too
+        std::fill(sums.begin(), sums.end(), 0.0);
+        for (int k = 0; k < rings.samples; ++k)
+          if (colours[k][c] > 0)
+            add_scaled(weight * colours[k][c], &cosines[static_cast<std::size_t>(k) * orders], sums.data(),
+                       orders);
       }
-      for (int c = 0; c < out.channels; ++c) {
-        const std::size_t from = ((static_cast<std::size_t>(q) * out.channels + c) * rings.count() + ring) * views;
-        add_scaled(rings.weight[ring] * current, &orders[from], out.at(l, q, c), views);
-      }
+      for (int q = 0; q < orders; ++q)
+        view.orders[(static_cast<std::size_t>(q) * 3 + c) * rings.padded() + ring] = sums[q];
     }
   }
 }
 
-double energy_of(const std::vector<double>& view, const Rings& rings, int channel) {
-  double sum = 0;
-  for (int ring = 0; ring < rings.count(); ++ring)
-    for (int k = 0; k < rings.samples; ++k) {
-      const double value = view[(static_cast<std::size_t>(ring) * rings.samples + k) * 3 + channel];
-      sum += rings.weight[ring] / rings.samples * value * value;
+// The recurrence of basis.h in l on lane_count rings: sums[(l - q) * lane_count + lane] += P_lq(x) f for l = q ..;
+// a[l - q] is its factor, `pqq` the start.
+WELKIN_TARGET_CLONES void add_block(const double* x, const double* pqq, const double* f, const double* a,
+                                    int degrees, double* sums) {
+  double current[lane_count], previous[lane_count];
+  for (int i = 0; i < lane_count; ++i) current[i] = pqq[i], previous[i] = 0;
+  for (int n = 0; n < degrees; ++n) {
+    if (n > 0) {
+      const double back = n > 1 ? 1 / a[n - 1] : 0;
+      for (int i = 0; i < lane_count; ++i) {
+        const double next = a[n] * (x[i] * current[i] - back * previous[i]);
+        previous[i] = current[i];
+        current[i] = next;
+      }
     }
-  return sum;
+    for (int i = 0; i < lane_count; ++i) sums[n * lane_count + i] += current[i] * f[i];
+  }
+}
+
+void integrate_polar(const Rings& rings, int max_degree, int orders, View& view) {
+  std::vector<double> pqq(rings.padded(), 0.5 / std::sqrt(pi)), a, sums;
+  for (int q = 0; q < orders; ++q) {
+    const int degrees = max_degree - q + 1;
+    a.assign(degrees, 0.0);
+    for (int l = q + 1; l <= max_degree; ++l)
+      a[l - q] = std::sqrt((4.0 * l * l - 1) / (1.0 * l * l - 1.0 * q * q));
+    if (q > 0)
+      for (int ring = 0; ring < rings.padded(); ++ring)
+        pqq[ring] *=
+            std::sqrt((2.0 * q + 1) / (2.0 * q) * (1 - rings.cos_polar[ring] * rings.cos_polar[ring]));
+    const std::size_t first = view.values.size();
+    view.values.resize(first + 3 * static_cast<std::size_t>(degrees));
+    for (int c = 0; c < (view.grey ? 1 : 3); ++c) {
+      sums.assign(static_cast<std::size_t>(degrees) * lane_count, 0.0);
+      const double* f = &view.orders[(static_cast<std::size_t>(q) * 3 + c) * rings.padded()];
+      for (int ring = 0; ring < rings.padded(); ring += lane_count)
+        add_block(&rings.cos_polar[ring], &pqq[ring], f + ring, a.data(), degrees, sums.data());
+      for (int n = 0; n < degrees; ++n)
+        for (int i = 0; i < lane_count; ++i) view.values[first + n * 3 + c] += sums[n * lane_count + i];
+    }
+    for (int n = 0; n < degrees && view.grey; ++n)
+      view.values[first + n * 3 + 1] = view.values[first + n * 3 + 2] = view.values[first + n * 3];
+  }
+}
+
+// [row * views + view] from what each view has, every row or every third one.
+std::vector<double> gathered(const std::vector<View>& views, int channels) {
+  std::vector<double> result;
+  const std::size_t rows = views.front().values.size();
+  result.reserve(rows / 3 * channels * views.size());
+  for (std::size_t row = 0; row < rows; row += channels == 1 ? 3 : 1)
+    for (const View& view : views) result.push_back(view.values[row]);
+  return result;
 }
 
 }  // namespace
@@ -162,32 +196,37 @@ int brdf_degree(double angular_width, int limit) {
   return std::min(limit, static_cast<int>(std::ceil(degree)));
 }
 
-BrdfSpectrum make_brdf_spectrum(const IsotropicBrdf& brdf, ReflectionFrame frame, int max_degree, int max_order,
-                                std::span<const double> cos_views) {
-  assert(max_degree >= 0 && max_order >= 0 && max_order <= max_degree);
+BrdfSpectrum make_brdf_spectrum(const IsotropicBrdf& brdf, ReflectionFrame frame, int max_degree,
+                                int max_order, std::span<const double> cos_views) {
+  assert(max_degree >= 0 && max_order >= 0 && max_order <= max_degree && !cos_views.empty());
   if (!(brdf.angular_width >= narrowest_brdf))
     throw Error("the BRDF " + brdf.name + " is too narrow for spherical harmonics (below 0.02 rad)");
-  const Rings rings(frame, max_degree, max_order, brdf.angular_width);
-  std::vector<std::vector<double>> samples(cos_views.size());
-  parallel_for(cos_views.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t view = begin; view < end; ++view)
-      samples[view] = sample_view(brdf, frame, cos_views[view], rings);
+  const int orders = max_order + 1;
+  std::vector<Rings> rings;
+  std::vector<std::vector<double>> cosines;
+  for (int level = 0; level < level_count; ++level) {
+    rings.emplace_back(frame, max_degree, max_order, brdf.angular_width, level);
+    cosines.push_back(cosine_table(rings.back().samples, orders));
+  }
+  std::vector<View> views(cos_views.size());
+  parallel_for(views.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int level = level_of(cos_views[i]);
+      integrate_azimuth(brdf, frame, cos_views[i], rings[level], cosines[level], orders, views[i]);
+      integrate_polar(rings[level], max_degree, orders, views[i]);
+      views[i].orders = {};
+    }
   });
 
   BrdfSpectrum out;
   out.frame = frame;
   out.max_degree = max_degree;
   out.max_order = max_order;
-  out.channels = is_grey(samples) ? 1 : 3;
+  out.channels = std::all_of(views.begin(), views.end(), [](const View& view) { return view.grey; }) ? 1 : 3;
   out.cos_views.assign(cos_views.begin(), cos_views.end());
   for (int c = 0; c < out.channels; ++c)
-    for (const auto& view : samples) out.total_energy.push_back(energy_of(view, rings, c));
-  const auto pairs = static_cast<std::size_t>(max_order + 1) * static_cast<std::size_t>(2 * max_degree + 2 - max_order) / 2;
-  out.values.resize(pairs * out.channels * cos_views.size());
-  const Orders orders = azimuth_integrals(samples, rings, out);
-  parallel_for(max_order + 1, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t q = begin; q < end; ++q) sum_rings(static_cast<int>(q), rings, orders, out);
-  });
+    for (const View& view : views) out.total_energy.push_back(view.energy[c]);
+  out.values = gathered(views, out.channels);
   return out;
 }
 

@@ -8,7 +8,7 @@ namespace welkin {
 
 /// The axis of the local frame in which a BRDF is expanded.
 enum class ReflectionFrame {
-  normal,    ///< the surface's normal
+  normal,  ///< the surface's normal
   reflected  ///< the view mirrored about the normal: glossy lobes stay near the pole (Ramamoorthi & Hanrahan 2002)
 };
 
@@ -22,8 +22,9 @@ struct BrdfSpectrum {
   int max_order = 0;   ///< of q, <= max_degree
   int channels = 1;    ///< 1 where all three channels of the BRDF are equal
   std::vector<double> cos_views;
-  std::vector<double> values;        ///< t, see at(); the views of one coefficient follow each other
-  std::vector<double> total_energy;  ///< [channel * views + view]: integral of (f cos+)^2 over the light, 1/sr
+  std::vector<double> values;  ///< t, see at(); the views of one coefficient follow each other
+  std::vector<double>
+      total_energy;  ///< [channel * views + view]: integral of (f cos+)^2 over the light, 1/sr
 
   int views() const { return static_cast<int>(cos_views.size()); }
   /// The coefficients of all views, 0 <= q <= max_order, q <= l <= max_degree.
@@ -47,7 +48,7 @@ int brdf_degree(double angular_width, int limit);
 /// By a product quadrature: Gauss-Legendre in the polar cosine, equal steps in azimuth, both fine enough for max_degree
 /// and for the BRDF's angular width. Every cosine of a view is in (0, 1], max_order <= max_degree. Throws Error where
 /// the BRDF is narrower than narrowest_brdf, or gives a value that is negative or not finite.
-BrdfSpectrum make_brdf_spectrum(const IsotropicBrdf& brdf, ReflectionFrame frame, int max_degree, int max_order,
-                                std::span<const double> cos_views);
+BrdfSpectrum make_brdf_spectrum(const IsotropicBrdf& brdf, ReflectionFrame frame, int max_degree,
+                                int max_order, std::span<const double> cos_views);
 
 }  // namespace welkin

@@ -27,11 +27,13 @@ namespace welkin {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 constexpr int reference_limit = 192;  // degrees of the tables and of the light's spectrum
 constexpr int normal_limit = 32;      // degrees that the view's nodes resolve about the normal
-constexpr int view_nodes = 48;        // Gauss-Legendre: P_pq P_p'q are integrated exactly up to order 16 and beyond
+constexpr int view_nodes = 48;  // Gauss-Legendre: P_pq P_p'q are integrated exactly up to order 16 and beyond
 
 void check(const Image& radiance, const ShrmOptions& options) {
   const auto require = [](bool good, const char* what) {
@@ -39,8 +41,10 @@ void check(const Image& radiance, const ShrmOptions& options) {
   };
   require(radiance.channels == 3 && !radiance.empty(), "a reflection map needs an environment of 3 channels");
   require(options.error_bound > 0 && std::isfinite(options.error_bound), "the error bound must be above 0");
-  require(options.max_degree >= 0 && options.max_degree <= max_spin_degree, "the largest degree must be in 0 .. 128");
-  require(options.max_order >= 0 && options.max_order <= 16, "the largest order of the view must be in 0 .. 16");
+  require(options.max_degree >= 0 && options.max_degree <= max_spin_degree,
+          "the largest degree must be in 0 .. 128");
+  require(options.max_order >= 0 && options.max_order <= 16,
+          "the largest order of the view must be in 0 .. 16");
   require(!options.degree || (*options.degree >= 0 && *options.degree <= options.max_degree),
           "the degree must be in 0 .. the largest degree");
   require(!options.order || (*options.order >= 0 && *options.order <= options.max_order),
@@ -62,24 +66,31 @@ struct Choice {
   double error = 0, cost = 0;
 };
 
-// The cheapest choice within the bound, or the one with the smallest error. The cost is the number of values kept.
-Choice choose(const std::vector<Candidate>& candidates, const ShrmOptions& options) {
-  Choice best;
-  bool best_met = false;
+// Calls visit(choice) for everything that the options allow. The cost is the number of values kept.
+template <class Visit>
+void for_each_choice(const std::vector<Candidate>& candidates, const ShrmOptions& options, Visit&& visit) {
   for (const Candidate& candidate : candidates) {
-    const int last_order = static_cast<int>(candidate.errors.kept.size()) - 1;
-    for (int order = options.order.value_or(0); order <= std::min(last_order, options.order.value_or(last_order)); ++order) {
+    const int last_order =
+        std::min(static_cast<int>(candidate.errors.kept.size()) - 1, options.order.value_or(1000));
+    const int last_degree = std::min(candidate.expansion.max_degree, options.degree.value_or(1000));
+    for (int order = options.order.value_or(0); order <= last_order; ++order) {
       const auto maps = static_cast<double>(view_terms(candidate.frame, order).size());
-      const int last = candidate.expansion.max_degree;
-      for (int degree = options.degree.value_or(0); degree <= std::min(last, options.degree.value_or(last)); ++degree) {
-        const double error = std::sqrt(candidate.errors.error(degree, order) / candidate.errors.signal);
-        const double cost = maps * (degree + 1.0) * (degree + 1.0);
-        const bool met = error <= options.error_bound;
-        const bool better = met != best_met ? met : met ? cost < best.cost : error < best.error;
-        if (best.candidate == nullptr || better) best = {&candidate, degree, order, error, cost}, best_met = met;
-      }
+      for (int degree = options.degree.value_or(0); degree <= last_degree; ++degree)
+        visit(Choice{&candidate, degree, order, candidate.errors.relative_error(degree, order),
+                     maps * (degree + 1.0) * (degree + 1.0)});
     }
   }
+}
+
+// The cheapest choice within the bound; where none is, the cheapest within 5 % of the smallest error.
+Choice choose(const std::vector<Candidate>& candidates, const ShrmOptions& options) {
+  double smallest = INFINITY;
+  for_each_choice(candidates, options, [&](const Choice& c) { smallest = std::min(smallest, c.error); });
+  const double bound = std::max(options.error_bound, 1.05 * smallest);
+  Choice best;
+  for_each_choice(candidates, options, [&](const Choice& c) {
+    if (c.error <= bound && (best.candidate == nullptr || c.cost < best.cost)) best = c;
+  });
   return best;
 }
 
@@ -89,7 +100,8 @@ std::vector<SpinFilter> filters_of(const ViewExpansion& expansion, int degree, i
     if (expansion.terms[k].p > order) continue;
     SpinFilter filter{expansion.terms[k].q, {}};
     for (int l = 0; l <= degree; ++l)
-      for (int c = 0; c < 3; ++c) filter.factors.push_back(expansion.at(k, l, expansion.channels == 1 ? 0 : c));
+      for (int c = 0; c < 3; ++c)
+        filter.factors.push_back(expansion.at(k, l, expansion.channels == 1 ? 0 : c));
     filters.push_back(std::move(filter));
   }
   return filters;
@@ -112,10 +124,12 @@ int grid_rows(int degree) {
   return rows;
 }
 
-std::vector<Candidate> make_candidates(const IsotropicBrdf& brdf, const Spectrum& spectrum, const ShrmOptions& options) {
+std::vector<Candidate> make_candidates(const IsotropicBrdf& brdf, const Spectrum& spectrum,
+                                       const ShrmOptions& options) {
   const ViewNodes nodes = make_view_nodes(view_nodes);
   const int degree = spectrum.max_degree;
-  const BrdfSpectrum reference = make_brdf_spectrum(brdf, ReflectionFrame::reflected, degree, degree, nodes.cos_view);
+  const BrdfSpectrum reference =
+      make_brdf_spectrum(brdf, ReflectionFrame::reflected, degree, degree, nodes.cos_view);
   const auto power = mean_coefficient_power(spectrum);
   std::vector<Candidate> candidates;
   const auto add = [&](const BrdfSpectrum& table, int limit) {
@@ -130,8 +144,7 @@ std::vector<Candidate> make_candidates(const IsotropicBrdf& brdf, const Spectrum
   if (options.frame != ReflectionFrame::normal) add(reference, degree);
   if (options.frame != ReflectionFrame::reflected) {
     const int limit = std::min(degree, normal_limit);
-    add(make_brdf_spectrum(brdf, ReflectionFrame::normal, limit, std::min(limit, options.max_order), nodes.cos_view),
-        limit);
+    add(make_brdf_spectrum(brdf, ReflectionFrame::normal, limit, limit, nodes.cos_view), limit);
   }
   return candidates;
 }
@@ -154,14 +167,15 @@ ReflectionMap prepare_shrm(const Image& radiance, const IsotropicBrdf& brdf, con
   report.frame = choice.candidate->frame;
   report.degree = choice.degree;
   report.order = choice.order;
-  report.predicted_error = choice.candidate->errors.signal > 0 ? choice.error : 0;
+  report.predicted_error = choice.error;
   report.bound_met = report.predicted_error <= options.error_bound;
 
   const auto synthesis_start = Clock::now();
   const auto filters = filters_of(choice.candidate->expansion, choice.degree, choice.order);
   report.rows = grid_rows(choice.degree);
   report.columns = 2 * report.rows;
-  map.coefficients = synthesize_spin(truncated(spectrum, choice.degree), filters, report.rows, report.columns);
+  map.coefficients =
+      synthesize_spin(truncated(spectrum, choice.degree), filters, report.rows, report.columns);
   report.maps = static_cast<int>(map.coefficients.slot_spin.size());
   report.synthesis_seconds = seconds_since(synthesis_start);
   return map;

@@ -29,13 +29,14 @@ struct ShrmOptions {
 
 struct ShrmReport {
   ReflectionFrame frame = ReflectionFrame::reflected;
-  int degree = 0;      ///< F: degrees of the light
-  int order = 0;       ///< P: order of the view
-  int maps = 0;        ///< real coefficient maps
+  int degree = 0;  ///< F: degrees of the light
+  int order = 0;   ///< P: order of the view
+  int maps = 0;    ///< real coefficient maps
   int rows = 0, columns = 0;
-  double predicted_error = 0;  ///< relative RMS; the mean over all orientations is exact but for quadrature and grid
-  bool bound_met = false;      ///< false where no allowed choice keeps the bound; then the best one was taken
-  double brdf_seconds = 0;       ///< expansion of the BRDF and choice of the orders: once a material
+  double predicted_error =
+      0;  ///< relative RMS; the mean over all orientations is exact but for quadrature and grid
+  bool bound_met = false;   ///< false where no allowed choice keeps the bound; then the best one was taken
+  double brdf_seconds = 0;  ///< expansion of the BRDF and choice of the orders: once a material
   double analysis_seconds = 0;   ///< spectrum of the map: once a map
   double synthesis_seconds = 0;  ///< the coefficient maps
 };

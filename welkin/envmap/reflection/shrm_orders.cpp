@@ -22,14 +22,16 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // The P_pq at each node: [term * nodes + node].
-std::vector<double> term_values(ReflectionFrame frame, std::span<const ViewTerm> terms, const ViewNodes& nodes, int order) {
+std::vector<double> term_values(ReflectionFrame frame, std::span<const ViewTerm> terms,
+                                const ViewNodes& nodes, int order) {
   const std::size_t count = nodes.cos_view.size();
   std::vector<double> values(terms.size() * count), basis(sh_count(order));
   for (std::size_t i = 0; i < count; ++i) {
     const double x = view_polar_cosine(frame, nodes.cos_view[i]);
     evaluate_sh_basis({std::sqrt(std::max(0.0, 1 - x * x)), 0, x}, order, basis);
     for (std::size_t k = 0; k < terms.size(); ++k)
-      values[k * count + i] = basis[sh_index(terms[k].p, terms[k].q)] / (terms[k].q > 0 ? std::numbers::sqrt2 : 1);
+      values[k * count + i] =
+          basis[sh_index(terms[k].p, terms[k].q)] / (terms[k].q > 0 ? std::numbers::sqrt2 : 1);
   }
   return values;
 }
@@ -52,25 +54,34 @@ std::vector<double> mean_weights(const ViewNodes& nodes, double smallest_cos_vie
   return weights;
 }
 
-// What is left of t_lq at each node as p goes up; lost[P] gets the change of the mean square against no term at all.
-void add_residuals(const BrdfSpectrum& table, const ViewExpansion& expansion, int l, int channel,
-                   std::span<const double> values, std::span<const double> weights, double power,
-                   std::vector<double>& lost) {
+double mean_square(std::span<const double> values, std::span<const double> weights) {
+  double sum = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) sum += weights[i] * values[i] * values[i];
+  return sum;
+}
+
+// left[P]: mean over views of the sum over q of k_q (t_lq - sum_(p <= P) rho_lpq P_pq)^2.
+std::vector<double> residual_energies(const BrdfSpectrum& table, const ViewExpansion& expansion, int l,
+                                      int channel, std::span<const double> values,
+                                      std::span<const double> weights) {
   const std::size_t count = weights.size();
-  std::vector<double> rest(count);
-  for (std::size_t k = 0; k < expansion.terms.size(); ++k) {
-    const auto [p, q] = expansion.terms[k];
-    if (q > l) break;
-    if (k == 0 || expansion.terms[k - 1].q != q) std::copy_n(table.at(l, q, channel), count, rest.begin());
-    const double rho = expansion.at(k, l, channel), pair = q > 0 ? 2 : 1;
-    double change = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double next = rest[i] - rho * values[k * count + i];
-      change += weights[i] * (next * next - rest[i] * rest[i]);
-      rest[i] = next;
+  const int orders = expansion.terms.back().p + 1;
+  std::vector<double> left(orders), rest(count);
+  std::size_t term = 0;
+  for (int q = 0; q <= l; ++q) {
+    std::copy_n(table.at(l, q, channel), count, rest.begin());
+    double now = mean_square(rest, weights);
+    for (int p = 0; p < orders; ++p) {
+      if (term < expansion.terms.size() && expansion.terms[term].q == q && expansion.terms[term].p == p) {
+        const double rho = expansion.at(term, l, channel);
+        for (std::size_t i = 0; i < count; ++i) rest[i] -= rho * values[term * count + i];
+        now = mean_square(rest, weights);
+        ++term;
+      }
+      left[p] += (q > 0 ? 2 : 1) * now;
     }
-    lost[p] += power * pair * change;
   }
+  return left;
 }
 
 }  // namespace
@@ -91,7 +102,8 @@ std::vector<std::array<double, 3>> mean_coefficient_power(const Spectrum& radian
   for (int l = 0; l <= radiance.max_degree; ++l)
     for (int m = 0; m <= l; ++m)
       for (int c = 0; c < 3; ++c)
-        power[l][c] += (m > 0 ? 2 : 1) * std::norm(radiance.values[radiance.index(l, m) * 3 + c]) / (2 * l + 1);
+        power[l][c] +=
+            (m > 0 ? 2 : 1) * std::norm(radiance.values[radiance.index(l, m) * 3 + c]) / (2 * l + 1);
   return power;
 }
 
@@ -117,7 +129,8 @@ ViewExpansion expand_views(const BrdfSpectrum& table, const ViewNodes& nodes, in
       for (int c = 0; c < table.channels; ++c) {
         const double* t = table.at(l, expansion.terms[k].q, c);
         double sum = 0;
-        for (std::size_t i = 0; i < count; ++i) sum += sphere_weight(table.frame, nodes, i) * t[i] * values[k * count + i];
+        for (std::size_t i = 0; i < count; ++i)
+          sum += sphere_weight(table.frame, nodes, i) * t[i] * values[k * count + i];
         expansion.values[(k * (max_degree + 1) + l) * table.channels + c] = sum;
       }
     }
@@ -127,15 +140,21 @@ ViewExpansion expand_views(const BrdfSpectrum& table, const ViewNodes& nodes, in
 
 double OrderErrors::error(int max_degree, int order) const {
   double sum = beyond_table;
-  for (int l = 0; l < static_cast<int>(dropped.size()); ++l) sum += l <= max_degree ? kept[order][l] : dropped[l];
-  return std::max(0.0, sum);
+  for (int l = 0; l < static_cast<int>(dropped.size()); ++l)
+    sum += l <= max_degree ? kept[order][l] : dropped[l];
+  return sum;
+}
+
+double OrderErrors::relative_error(int max_degree, int order) const {
+  return signal > 0 ? std::sqrt(error(max_degree, order) / signal) : 0;
 }
 
 OrderErrors order_errors(std::span<const std::array<double, 3>> power, const BrdfSpectrum& reference,
                          const BrdfSpectrum& table, const ViewExpansion& expansion, const ViewNodes& nodes,
                          double smallest_cos_view) {
   const int degrees = reference.max_degree + 1, max_order = expansion.terms.back().p;
-  assert(reference.max_order == reference.max_degree && static_cast<int>(power.size()) >= degrees);
+  assert(reference.max_order == reference.max_degree && table.max_order == table.max_degree &&
+         static_cast<int>(power.size()) >= degrees);
   const std::size_t count = nodes.cos_view.size();
   const std::vector<double> weights = mean_weights(nodes, smallest_cos_view);
   const std::vector<double> values = term_values(table.frame, expansion.terms, nodes, max_order);
@@ -145,21 +164,17 @@ OrderErrors order_errors(std::span<const std::array<double, 3>> power, const Brd
   for (int c = 0; c < 3; ++c) {
     const int reference_channel = reference.channels == 1 ? 0 : c, channel = table.channels == 1 ? 0 : c;
     double beyond = 0;
-    for (std::size_t i = 0; i < count; ++i) beyond += weights[i] * reference.total_energy[reference_channel * count + i];
+    for (std::size_t i = 0; i < count; ++i)
+      beyond += weights[i] * reference.total_energy[reference_channel * count + i];
     for (int l = 0; l < degrees; ++l) {
       double energy = 0;
       for (int q = 0; q <= l; ++q)
-        for (std::size_t i = 0; i < count; ++i) {
-          const double t = reference.at(l, q, reference_channel)[i];
-          energy += (q > 0 ? 2 : 1) * weights[i] * t * t;
-        }
+        energy += (q > 0 ? 2 : 1) * mean_square({reference.at(l, q, reference_channel), count}, weights);
       beyond -= energy;
       errors.dropped[l] += power[l][c] * energy;
       if (l > expansion.max_degree) continue;
-      std::vector<double> lost(max_order + 1);
-      add_residuals(table, expansion, l, channel, values, weights, power[l][c], lost);
-      double left = power[l][c] * energy;
-      for (int order = 0; order <= max_order; ++order) errors.kept[order][l] += left += lost[order];
+      const std::vector<double> left = residual_energies(table, expansion, l, channel, values, weights);
+      for (int order = 0; order <= max_order; ++order) errors.kept[order][l] += power[l][c] * left[order];
     }
     double last_power = 0;  // per coefficient, over the upper half of the degrees
     for (int l = degrees / 2; l < degrees; ++l) last_power += power[l][c] / (degrees - degrees / 2);

@@ -49,16 +49,18 @@ ViewExpansion expand_views(const BrdfSpectrum& table, const ViewNodes& nodes, in
 /// in their cosine over [smallest_cos_view, 1], summed over the three channels.
 struct OrderErrors {
   double signal = 0;
-  double beyond_table = 0;                 ///< of the BRDF's degrees above the reference table (an estimate)
-  std::vector<double> dropped;             ///< [l]: if degree l is left out altogether
-  std::vector<std::vector<double>> kept;   ///< [order][l]: if it is kept with this order of the view
+  double beyond_table = 0;                ///< of the BRDF's degrees above the reference table (an estimate)
+  std::vector<double> dropped;            ///< [l]: if degree l is left out altogether
+  std::vector<std::vector<double>> kept;  ///< [order][l]: if it is kept with this order of the view
 
   /// Mean square of the error with degrees up to max_degree and this order.
   double error(int max_degree, int order) const;
+  /// Its root over that of the signal; 0 where there is no signal.
+  double relative_error(int max_degree, int order) const;
 };
 
-/// `reference` (any frame, max_order = max_degree, the highest degree there is) gives the energy of each degree;
-/// `table` and `expansion` say what is kept. Both tables at the cosines of `nodes`.
+/// `reference` (any frame, the highest degree there is) gives the energy of each degree; `table` and `expansion` say what is
+/// kept. Both tables have max_order = max_degree and the cosines of `nodes`.
 OrderErrors order_errors(std::span<const std::array<double, 3>> power, const BrdfSpectrum& reference,
                          const BrdfSpectrum& table, const ViewExpansion& expansion, const ViewNodes& nodes,
                          double smallest_cos_view);

@@ -5,4 +5,8 @@ set(WELKIN_REFLECTION_SOURCES
   reflection/stretched_taps.cpp
   reflection/stretched_taps_fit.cpp
   reflection/tap_fit.cpp
+  reflection/brdf_spectrum.cpp
+  reflection/low_frequency.cpp
+  reflection/shrm.cpp
+  reflection/shrm_orders.cpp
   reflection/truth.cpp)
