@@ -28,6 +28,7 @@ struct ReflectCommand {
   EnvironmentInput in;
   std::string brdf, method = "brute", output;
   int size = 256, directions = 400;
+  double error_bound = 0.02;
   bool verify = false;
 };
 
@@ -153,7 +154,7 @@ void run(const ReflectCommand& command) {
   const Environment environment = load(command.in);
   for (const std::string& warning : environment.warnings)
     fmt::print(stderr, "welkin: warning: {}: {}\n", command.in.input, warning);
-  const ReflectInput input{environment.radiance, command.brdf, brdf};
+  const ReflectInput input{environment.radiance, command.brdf, brdf, command.error_bound};
   if (command.verify) {
     std::vector<const ReflectMethod*> methods;
     for (const ReflectMethod& method : reflect_methods())
@@ -183,6 +184,9 @@ void add_reflect_command(CLI::App& app) {
                   "Picture of a sphere, seen along -Z: .hdr, .exr (radiance) or .png (tone-mapped)");
   sub->add_option("--size", command->size, "Pixels along a side of the picture")
       ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  sub->add_option("--error-bound", command->error_bound, "Relative RMS error that shrm chooses its orders for")
+      ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
   sub->add_flag("--verify", command->verify, "Print errors against brute force over all normals and views");
   sub->add_option("--directions", command->directions, "How many pairs of normal and view --verify takes")

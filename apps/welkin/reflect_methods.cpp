@@ -4,12 +4,40 @@
 
 #include <memory>
 
+#include <welkin/envmap/reflection/low_frequency.h>
+#include <welkin/envmap/reflection/shrm.h>
 #include <welkin/error.h>
 
 namespace welkin {
+namespace {
+
+PreparedReflection prepare_shrm_method(const ReflectInput& input) {
+  ShrmOptions options;
+  options.error_bound = input.error_bound;
+  auto map = std::make_shared<const ReflectionMap>(prepare_shrm(input.radiance, input.brdf, options));
+  const ShrmReport& report = map->report;
+  return {[map](const ReflectionQuery& query) { return reflect(*map, query); },
+          fmt::format("F {}, P {} about the {}, {} maps of {} x {}, predicted {:.2e}{}", report.degree,
+                      report.order, report.frame == ReflectionFrame::normal ? "normal" : "mirrored view",
+                      report.maps, report.columns, report.rows, report.predicted_error,
+                      report.bound_met ? "" : " (bound not met)")};
+}
+
+PreparedReflection prepare_low_frequency_method(const ReflectInput& input) {
+  auto low =
+      std::make_shared<const LowFrequencyReflection>(prepare_low_frequency(input.radiance, input.brdf));
+  return {[low](const ReflectionQuery& query) { return reflect(*low, query); },
+          fmt::format("25 coefficients, {} elevations, predicted {:.2e}", low->views,
+                      low->report.predicted_error)};
+}
+
+}  // namespace
 
 const std::vector<ReflectMethod>& reflect_methods() {
-  static const std::vector<ReflectMethod> methods{};
+  static const std::vector<ReflectMethod> methods{
+      {"shrm", "spherical-harmonic reflection map within --error-bound, Ramamoorthi & Hanrahan 2002",
+       prepare_shrm_method},
+      {"low-frequency", "light of degree 4, Kautz, Sloan & Snyder 2002", prepare_low_frequency_method}};
   return methods;
 }
 

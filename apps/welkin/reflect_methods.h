@@ -16,6 +16,7 @@ struct ReflectInput {
   const Image& radiance;  ///< equirectangular
   std::string brdf_spec;  ///< as the user wrote it
   IsotropicBrdf brdf;
+  double error_bound = 0.02;  ///< relative RMS, for methods that choose their size by it
 };
 
 /// A method with all that it computes beforehand done.

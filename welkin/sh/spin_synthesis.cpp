@@ -12,14 +12,14 @@
 #include <welkin/sphere/equirect.h>
 
 // Derivation. Let u = (x, z, y) of the world, so that the equirectangular azimuth is right-handed about u_3, and
-// R = Z(b) Y(a) the rotation that takes the pole to the direction with polar angle a and azimuth b, u_1 to e_theta and
-// u_2 to e_phi. For the usual Y_lm (with Condon-Shortley sign) and D^l_mq(b, a, 0) = e^(-imb) d^l_mq(a),
+// R = Z(b) Y(a) the rotation that takes the pole to the direction with polar angle a and azimuth b, u_1 to e_theta
+// and u_2 to e_phi. For the usual Y_lm (with Condon-Shortley sign) and D^l_mq(b, a, 0) = e^(-imb) d^l_mq(a),
 //   Y_lm(R w) = sum over q of conj(D^l_mq) Y_lq(w),
 // so f = sum of a_lm Y_lm has around the direction (a, b) the coefficients
 //   c_lq(a, b) = sum over m of a_lm d^l_mq(a) e^(imb).
 // The functions of spectrum.h are S_lm = e_m Y_lm, e_m = (-1)^m for m > 0 and else 1; for them d becomes
 // e_m e_q d^l_mq. Real functions: a_l-m = conj a_lm, c_l-q = conj c_lq.
-// At fixed m and q >= 0 the functions follow in l from l0 = max(|m|, q) on by (Kostelec & Rockmore 2008, eq. 2.8)
+// At fixed m and q >= 0 the functions follow in l from l0 = max(|m|, q) on by (Kostelec & Rockmore 2008)
 //   d^(l+1) = ((2l+1) [(l+1) cos a - mq/l] d^l - (l+1)/l sqrt((l^2-m^2)(l^2-q^2)) d^(l-1))
 //             / sqrt(((l+1)^2-m^2)((l+1)^2-q^2)),
 // where with c = cos(a/2), s = sin(a/2) the start is, up to the sign given below,

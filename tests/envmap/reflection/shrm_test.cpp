@@ -116,7 +116,8 @@ TEST(Shrm, ALobeAboutTheMirroredViewIsTheConvolvedMap) {
 }
 
 // Predicted error against the measured one: ratio within 1.5 either way. The prediction is exact in the mean over all
-// orientations; some hundred random queries leave 10 % of noise, more under a sun: few of them see it at grazing views.
+// orientations; some hundred random queries leave 10 % of noise, more under a sun: few of them see it at grazing
+// views.
 void expect_predicted(const Image& radiance, const IsotropicBrdf& brdf, int queries,
                       std::span<const double> bounds) {
   const TrueReflection truth(radiance, brdf, queries, 3);

@@ -11,9 +11,9 @@
 #include <welkin/parallel/target_clones.h>
 #include <welkin/sampling/quadrature.h>
 
-// t_lq = integral over theta', phi' of (f cos+) P_lq(cos theta') cos(q phi'). About the normal the polar cosine runs over
-// [0, 1] only, so the horizon costs no accuracy. About the reflected direction it runs over [-1, 1]; there the normal
-// lies at polar angle theta_o in the half plane of the view, and the view at 2 theta_o:
+// t_lq = integral over theta', phi' of (f cos+) P_lq(cos theta') cos(q phi'). About the normal the polar cosine
+// runs over [0, 1] only, so the horizon costs no accuracy. About the reflected direction it runs over [-1, 1];
+// there the normal lies at polar angle theta_o in the half plane of the view, and the view at 2 theta_o:
 //   n = (sin theta_o, 0, cos theta_o),   v = (sin 2 theta_o, 0, cos 2 theta_o).
 // The azimuth integral of a ring comes first (a cosine sum, the BRDF being even in azimuth), then the sum over rings.
 
@@ -23,8 +23,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int lane_count = 8;  // rings that are summed together
 
-// Microfacet lobes get narrower across the plane of incidence in proportion to the cosine of the view; angular_width speaks
-// of 60 degrees. Views are sorted into levels, each with a quadrature twice as fine as the one before.
+// Microfacet lobes get narrower across the plane of incidence in proportion to the cosine of the view;
+// angular_width speaks of 60 degrees. Views are sorted into levels, each with a quadrature twice as fine as the one
+// before.
 constexpr int level_count = 4;
 
 int level_of(double cos_view) { return cos_view > 0.35 ? 0 : cos_view > 0.18 ? 1 : cos_view > 0.09 ? 2 : 3; }

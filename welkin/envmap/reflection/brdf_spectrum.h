@@ -45,9 +45,9 @@ inline constexpr double narrowest_brdf = 0.02;
 /// The degree up to which a BRDF of this angular width has content worth a table: about 8/width, within [24, limit].
 int brdf_degree(double angular_width, int limit);
 
-/// By a product quadrature: Gauss-Legendre in the polar cosine, equal steps in azimuth, both fine enough for max_degree
-/// and for the BRDF's angular width. Every cosine of a view is in (0, 1], max_order <= max_degree. Throws Error where
-/// the BRDF is narrower than narrowest_brdf, or gives a value that is negative or not finite.
+/// By a product quadrature: Gauss-Legendre in the polar cosine, equal steps in azimuth, both fine enough for
+/// max_degree and for the BRDF's angular width. Every cosine of a view is in (0, 1], max_order <= max_degree.
+/// Throws Error where the BRDF is narrower than narrowest_brdf, or gives a value that is negative or not finite.
 BrdfSpectrum make_brdf_spectrum(const IsotropicBrdf& brdf, ReflectionFrame frame, int max_degree,
                                 int max_order, std::span<const double> cos_views);
 

@@ -13,7 +13,8 @@
 
 // With c_lq the light's real coefficients in the frame (x towards the view, z the normal), and
 //   f cos+ = sum over l of [ t_l0 Y_l0 + sum_(q>0) sqrt2 t_lq Y_lq ]
-// at the view's elevation (brdf_spectrum.h, Y_lq = sqrt2 P_lq cos(q phi')), the integral of the product is the dot product
+// at the view's elevation (brdf_spectrum.h, Y_lq = sqrt2 P_lq cos(q phi')), the integral of the product is the dot
+// product
 //   B = sum over l of [ t_l0 c_l0 + sum_(q>0) sqrt2 t_lq c_lq ].
 // What the light has above max_degree is lost, and only that: A_l sum over q of k_q t_lq^2 of each such degree
 // (shrm_orders.h).

@@ -9,8 +9,8 @@
 #include <welkin/sh/projection.h>
 
 // Any isotropic BRDF under light of low frequency (Kautz, Sloan & Snyder 2002, "Fast, arbitrary BRDF shading for
-// low-frequency lighting using spherical harmonics"): 25 numbers of light, turned into the frame of the surface, times
-// 25 of the BRDF at the view's elevation.
+// low-frequency lighting using spherical harmonics"): 25 numbers of light, turned into the frame of the surface,
+// times 25 of the BRDF at the view's elevation.
 
 namespace welkin {
 
@@ -22,8 +22,8 @@ struct LowFrequencyOptions {
 };
 
 struct LowFrequencyReport {
-  /// Relative RMS over all normals and views against the light as it is, not band-limited; what the table's interpolation
-  /// adds is not in it.
+  /// Relative RMS over all normals and views against the light as it is, not band-limited; what the table's
+  /// interpolation adds is not in it.
   double predicted_error = 0;
   double light_seconds = 0;  ///< projection of the map: once a map
   double brdf_seconds = 0;   ///< table of the BRDF: once a material
@@ -35,8 +35,8 @@ struct LowFrequencyReflection {
   ShCoefficients light;  ///< world frame, 3 channels
   int views = 0;
   /// [(view * (max_degree + 1)^2 + sh_index(l, q)) * 3 + channel]: coefficients of f cos+ over the light in the frame
-  /// whose z is the normal and whose x is towards the view, at the elevations theta = (view + 1/2) pi / (2 views) from the
-  /// normal. Those with q < 0 are 0: the BRDF is isotropic.
+  /// whose z is the normal and whose x is towards the view, at the elevations theta = (view + 1/2) pi / (2 views)
+  /// from the normal. Those with q < 0 are 0: the BRDF is isotropic.
   std::vector<double> table;
   LowFrequencyReport report;
 };

@@ -11,17 +11,17 @@
 #include <welkin/sh/basis.h>
 #include <welkin/sh/transform.h>
 
-// Derivation. Let the local frame of a query have its pole at d, the normal or the view mirrored about it, and c_lq(d) be the
-// light's coefficients there (spin_synthesis.h). With the view at (theta_v, phi_v) of that frame and t_lq the
-// coefficients of f cos+ over the light, for a view of azimuth 0 (brdf_spectrum.h), orthonormality gives
+// Derivation. Let the local frame of a query have its pole at d, the normal or the view mirrored about it, and
+// c_lq(d) be the light's coefficients there (spin_synthesis.h). With the view at (theta_v, phi_v) of that frame and
+// t_lq the coefficients of f cos+ over the light, for a view of azimuth 0 (brdf_spectrum.h), orthonormality gives
 //   B(d, v) = sum over l of [ c_l0 t_l0 + 2 Re sum_(q>0) c_lq t_lq exp(i q phi_v) ].
 // t_lq depends on the view's polar angle; expanded as sum over p of rho_lpq P_pq(cos theta_v) it gives
 //   B(d, v) = sum over p of [ B_p0 P_p0 + 2 Re sum_(q>0) B_pq(d) P_pq exp(i q phi_v) ],
 //   B_pq(d) = sum over l of rho_lpq c_lq(d):
-// each B_pq is a spin synthesis of the light's spectrum with the factors rho_lpq (Ramamoorthi & Hanrahan 2002, eq. 7, with
-// their representation matrices folded into c_lq). In the frame of the reflected direction theta_v = 2 theta_o fills
-// the sphere, and a lobe around the pole has small q only: few maps at a high degree. About the normal every q up to l is
-// there, which pays for low degrees only.
+// each B_pq is a spin synthesis of the light's spectrum with the factors rho_lpq (as in Ramamoorthi & Hanrahan 2002,
+// with their representation matrices folded into c_lq). In the frame of the reflected direction theta_v = 2
+// theta_o fills the sphere, and a lobe around the pole has small q only: few maps at a high degree. About the
+// normal every q up to l is there, which pays for low degrees only.
 
 namespace welkin {
 namespace {

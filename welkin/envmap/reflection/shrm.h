@@ -9,14 +9,15 @@
 #include <welkin/image/image.h>
 #include <welkin/sh/spin_synthesis.h>
 
-// Spherical-harmonic reflection maps (Ramamoorthi & Hanrahan 2002, "Frequency space environment map rendering"): at each
-// point of a sphere, the coefficients of a small spherical-harmonic expansion over the view. One map answers every
-// normal and every view for one isotropic BRDF.
+// Spherical-harmonic reflection maps (Ramamoorthi & Hanrahan 2002, "Frequency space environment map rendering"): at
+// each point of a sphere, the coefficients of a small spherical-harmonic expansion over the view. One map answers
+// every normal and every view for one isotropic BRDF.
 
 namespace welkin {
 
 struct ShrmOptions {
-  /// The relative RMS error asked for, over all normals and views: sqrt(mean of squared error / mean of squared value).
+  /// The relative RMS error asked for, over all normals and views: sqrt(mean of squared error / mean of squared
+  /// value).
   double error_bound = 0.02;
   /// Limits of the orders that may be chosen: degrees of the light (F), 0 .. 128, and order of the view (P), 0 .. 16.
   int max_degree = 64, max_order = 12;
@@ -33,8 +34,8 @@ struct ShrmReport {
   int order = 0;   ///< P: order of the view
   int maps = 0;    ///< real coefficient maps
   int rows = 0, columns = 0;
-  double predicted_error =
-      0;  ///< relative RMS; the mean over all orientations is exact but for quadrature and grid
+  /// Relative RMS; the mean over all orientations is exact but for quadrature and grid.
+  double predicted_error = 0;
   bool bound_met = false;   ///< false where no allowed choice keeps the bound; then the best one was taken
   double brdf_seconds = 0;  ///< expansion of the BRDF and choice of the orders: once a material
   double analysis_seconds = 0;   ///< spectrum of the map: once a map
@@ -48,12 +49,12 @@ struct ReflectionMap {
   ShrmReport report;
 };
 
-/// Prefilters an equirectangular radiance map of 3 channels. Throws Error when an option is out of its range, the map has
-/// not 3 channels, or the BRDF is too narrow (see make_brdf_spectrum).
+/// Prefilters an equirectangular radiance map of 3 channels. Throws Error when an option is out of its range, the
+/// map has not 3 channels, or the BRDF is too narrow (see make_brdf_spectrum).
 ReflectionMap prepare_shrm(const Image& radiance, const IsotropicBrdf& brdf, const ShrmOptions& options = {});
 
-/// Reflected radiance; 0 where the view lies below the surface. The expansion may ring below 0 by about its error; it is
-/// not clamped.
+/// Reflected radiance; 0 where the view lies below the surface. The expansion may ring below 0 by about its error;
+/// it is not clamped.
 std::array<double, 3> reflect(const ReflectionMap& map, const ReflectionQuery& query);
 
 }  // namespace welkin

@@ -8,13 +8,13 @@
 #include <welkin/sampling/quadrature.h>
 #include <welkin/sh/basis.h>
 
-// The error is exact in the mean. At a fixed angle of the view the surface's orientation is a rotation of the light; over
-// all rotations its local coefficients c_lq are uncorrelated and |c_lq|^2 has the mean A_l = sum over m |a_lm|^2 / (2l+1)
-// (the D^l are orthogonal, Schur). With k_q = 1 for q = 0 and 2 for the pair +-q,
+// The error is exact in the mean. At a fixed angle of the view the surface's orientation is a rotation of the
+// light; over all rotations its local coefficients c_lq are uncorrelated and |c_lq|^2 has the mean A_l = sum over m
+// |a_lm|^2 / (2l+1) (the D^l are orthogonal, Schur). With k_q = 1 for q = 0 and 2 for the pair +-q,
 //   mean B^2           = sum over l of A_l sum over q of k_q t_lq^2,
 //   mean (B - B_FP)^2  = the same sum with t_lq - sum_(p <= P) rho_lpq P_pq in place of t_lq for l <= F, q <= P.
-// Nothing is assumed about the light. The energy of a degree, sum over q of k_q t_lq^2, does not depend on the axis, so one
-// reference table serves both frames.
+// Nothing is assumed about the light. The energy of a degree, sum over q of k_q t_lq^2, does not depend on the
+// axis, so one reference table serves both frames.
 
 namespace welkin {
 namespace {

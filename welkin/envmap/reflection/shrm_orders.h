@@ -20,9 +20,10 @@ ViewNodes make_view_nodes(int count);
 /// |a_lm|^2 of a map by degree, averaged over the 2l + 1 orders m, for each channel.
 std::vector<std::array<double, 3>> mean_coefficient_power(const Spectrum& radiance);
 
-/// The functions of the view, P_pq(cos theta_v) exp(i q phi_v), that a map of this order keeps: (p, q), q <= p <= order,
-/// sorted by q. About the reflected direction theta_v = 2 theta_o, so that views fill the sphere. About the normal the
-/// BRDF is continued below the horizon as its mirror image, theta_v = theta_o, and only even p - q are there.
+/// The functions of the view, P_pq(cos theta_v) exp(i q phi_v), that a map of this order keeps: (p, q), q <= p <=
+/// order, sorted by q. About the reflected direction theta_v = 2 theta_o, so that views fill the sphere. About the
+/// normal the BRDF is continued below the horizon as its mirror image, theta_v = theta_o, and only even p - q are
+/// there.
 struct ViewTerm {
   int p = 0, q = 0;
 };
@@ -45,8 +46,8 @@ struct ViewExpansion {
 /// `table` was made at the cosines of `nodes`; order <= table.max_order, max_degree <= table.max_degree.
 ViewExpansion expand_views(const BrdfSpectrum& table, const ViewNodes& nodes, int max_degree, int order);
 
-/// Mean square of the reflected radiance and of what is left out, over all orientations of the surface and views uniform
-/// in their cosine over [smallest_cos_view, 1], summed over the three channels.
+/// Mean square of the reflected radiance and of what is left out, over all orientations of the surface and views
+/// uniform in their cosine over [smallest_cos_view, 1], summed over the three channels.
 struct OrderErrors {
   double signal = 0;
   double beyond_table = 0;                ///< of the BRDF's degrees above the reference table (an estimate)
@@ -59,8 +60,8 @@ struct OrderErrors {
   double relative_error(int max_degree, int order) const;
 };
 
-/// `reference` (any frame, the highest degree there is) gives the energy of each degree; `table` and `expansion` say what is
-/// kept. Both tables have max_order = max_degree and the cosines of `nodes`.
+/// `reference` (any frame, the highest degree there is) gives the energy of each degree; `table` and `expansion`
+/// say what is kept. Both tables have max_order = max_degree and the cosines of `nodes`.
 OrderErrors order_errors(std::span<const std::array<double, 3>> power, const BrdfSpectrum& reference,
                          const BrdfSpectrum& table, const ViewExpansion& expansion, const ViewNodes& nodes,
                          double smallest_cos_view);
