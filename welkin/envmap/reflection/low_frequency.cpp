@@ -58,7 +58,7 @@ double predict_error(const Image& radiance, const IsotropicBrdf& brdf, const Low
   const int degree = brdf_degree(brdf.angular_width, 192);
   const BrdfSpectrum reference =
       make_brdf_spectrum(brdf, ReflectionFrame::reflected, degree, degree, nodes.cos_view);
-  const auto power = mean_coefficient_power(analyze(radiance, {degree, 1e-5}));
+  const auto power = mean_coefficient_power(analyze(radiance, {.max_degree = degree}));
   const OrderErrors errors = order_errors(power, reference, reference, expand_views(reference, nodes, 0, 0),
                                           nodes, options.smallest_cos_view);
   double lost = errors.beyond_table;

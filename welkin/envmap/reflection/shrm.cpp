@@ -156,7 +156,8 @@ ReflectionMap prepare_shrm(const Image& radiance, const IsotropicBrdf& brdf, con
   ReflectionMap map{brdf.name, {}, {}};
   ShrmReport& report = map.report;
   const auto start = Clock::now();
-  const Spectrum spectrum = analyze(radiance, {brdf_degree(brdf.angular_width, reference_limit), 1e-5});
+  const Spectrum spectrum =
+      analyze(radiance, {.max_degree = brdf_degree(brdf.angular_width, reference_limit)});
   report.analysis_seconds = seconds_since(start);
 
   const auto brdf_start = Clock::now();
