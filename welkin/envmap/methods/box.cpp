@@ -51,7 +51,7 @@ void add_look_up(const Cube& cube, CubePoint point, double weight, double* rgb) 
 //   2^k sqrt(pi/6) / cube_size = spread,   k = log2(cube_size spread) + 0.467.
 // What is best on maps lies higher, by what the fit of bench_box_bias says (see docs/filters.md).
 double box_level_bias(const ZonalKernel& kernel, int cube_size) {
-  constexpr double by_variance = 0.467, fitted = 0.383;
+  constexpr double by_variance = 0.467, fitted = 0.183;
   return std::max(0.0, std::log2(cube_size * kernel_spread(kernel)) + by_variance + fitted);
 }
 

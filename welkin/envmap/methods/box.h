@@ -13,7 +13,7 @@ struct BoxOptions {
 };
 
 /// The mip level (of a cube with `cube_size` texels along an edge, level 0) whose trilinear look-up is nearest to a
-/// kernel: log2(cube_size * kernel_spread) + 0.85, not below 0. Derivation and fit: docs/filters.md.
+/// kernel: log2(cube_size * kernel_spread) + 0.65, not below 0. Derivation and fit: docs/filters.md.
 double box_level_bias(const ZonalKernel& kernel, int cube_size);
 
 /// The chain that hardware makes: each texel the plain mean of four, each face by itself.

@@ -27,9 +27,12 @@ namespace welkin {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double widest_footprint = 0.4;  // rad; level texels beyond that are whole faces
 constexpr int max_rings = 5;
 constexpr double footprint_spread = 0.15;
+
+// The widest footprint (rad): levels of few texels see a lamp shift and stretch, by more than the model above says; with more
+// taps to spread it may be narrower. Chosen on maps of noise, lamps and a sun.
+double widest_footprint(int count) { return 0.45 / std::sqrt(std::sqrt(count)); }
 
 struct Ring {
   int count = 1;
@@ -43,12 +46,13 @@ using Rings = std::vector<Ring>;
 struct Goal {
   std::vector<double> counts, factors;
   double power = 0;  // sum of (2l + 1) k_l^2
-  double least_deviation = 0;
+  double least_deviation = 0, widest = 0;
 };
 
-Goal make_goal(const ZonalKernel& kernel, double least_deviation) {
+Goal make_goal(const ZonalKernel& kernel, double least_deviation, double widest) {
   Goal goal;
-  goal.least_deviation = std::min(least_deviation, widest_footprint);
+  goal.widest = widest;
+  goal.least_deviation = std::min(least_deviation, widest);
   const int limit = std::clamp(static_cast<int>(12 / angular_width(kernel)), 24, 768);
   goal.factors = legendre_coefficients(kernel, limit);
   while (goal.factors.size() > 16 && std::abs(goal.factors.back()) < 3e-3) goal.factors.pop_back();
@@ -191,7 +195,7 @@ double error_at(const Goal& goal, const Point& point, Rings& rings) {
   std::size_t next = 0;
   for (Ring& ring : rings) {
     ring.angle = ring.count == 1 ? 0 : std::min(std::exp(point[next++]), 0.6 * pi);
-    ring.deviation = std::clamp(std::exp(point[next++]), goal.least_deviation, widest_footprint);
+    ring.deviation = std::clamp(std::exp(point[next++]), goal.least_deviation, goal.widest);
   }
   return solve_weights(error_form(goal, rings), goal.power, rings);
 }
@@ -297,7 +301,7 @@ QuickTaps taps_of(const Rings& rings, double predicted_rms) {
 
 QuickTaps fit_quick_taps(const ZonalKernel& kernel, int count, double least_deviation) {
   if (count < 2 || count > 64) throw Error("quick filtering takes 2 to 64 taps");
-  const Goal goal = make_goal(kernel, least_deviation);
+  const Goal goal = make_goal(kernel, least_deviation, widest_footprint(count));
   Vertex best{{}, 1e300};
   Rings best_rings;
   for (const std::vector<int>& layout : layouts(count)) {
