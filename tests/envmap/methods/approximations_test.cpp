@@ -6,7 +6,10 @@
 
 #include "../maps.h"
 
+#include <welkin/envmap/cube_steps.h>
 #include <welkin/envmap/methods/filter_method.h>
+#include <welkin/envmap/methods/quick_taps.h>
+#include <welkin/envmap/methods/working_cube.h>
 #include <welkin/error.h>
 #include <welkin/sphere/cube.h>
 
@@ -107,6 +110,72 @@ TEST(Approximations, TurnWithTheMap) {
     const double limit = method == FilterMethod::paraboloid ? 0.5 : 1e-5;
     EXPECT_LT(half, 1e-5) << filter_method_name(method);
     EXPECT_LT(quarter, limit) << filter_method_name(method);
+  }
+}
+
+// Faces that know of each other against faces that do not: the paraboloids have no edges there, the taps of `quick` cross them
+// (bilinear look-ups in coarse levels leave kinks), box mips step.
+TEST(Approximations, SeamsAreThereOnlyWhereTheyAreStated) {
+  const Image map = lamp_map(64, 32, 5);
+  const FilterTarget target{make_phong_kernel(60), 16, 1};
+  const auto step = [&](FilterMethod method) {
+    return edge_step_ratio(filter_by_method(map, target, method));
+  };
+  EXPECT_LT(step(FilterMethod::paraboloid), 1.25);
+  EXPECT_LT(step(FilterMethod::quick), 1.7);
+  EXPECT_GT(step(FilterMethod::box), 3);
+}
+
+// Each doubling of the cube is one level, and so is a lobe half as wide (four times the exponent).
+TEST(BoxBias, FollowsTheLogarithmOfTexelsInTheLobe) {
+  const double at = box_level_bias(make_phong_kernel(225), 64);
+  EXPECT_NEAR(box_level_bias(make_phong_kernel(225), 128), at + 1, 1e-12);
+  EXPECT_NEAR(box_level_bias(make_phong_kernel(4 * 225), 64), at - 1,
+              5e-3);  // 1/sqrt(N) is the limit of the spread
+  EXPECT_NEAR(at, std::log2(64 / 15.0) + 0.65, 5e-3);
+  EXPECT_EQ(box_level_bias(make_phong_kernel(1e6), 16), 0);
+}
+
+// On noise the best bias lies above the law (ggx: by 0.3 to 0.6) and on smooth maps below it, where the error has
+// hardly risen.
+TEST(BoxBias, IsNearTheBestOne) {
+  const Image map = lamp_map(128, 64, 3, 0);
+  const CubeMips chain = box_chain(working_cube(map, 32));
+  for (const ZonalKernel& kernel : {make_phong_kernel(30), make_phong_kernel(120), make_ggx_kernel(0.1)}) {
+    const FilterTarget target{kernel, 12, 1};
+    const Cube truth = filter_by_method(map, target, FilterMethod::frequency);
+    const auto error = [&](double bias) {
+      return relative_rms(look_up_box_chain(chain, target, bias), truth);
+    };
+    const double law = box_level_bias(kernel, 32);
+    double best = law;
+    for (double bias = law - 1.5; bias <= law + 1.5; bias += 0.1)
+      if (error(bias) < error(best)) best = bias;
+    EXPECT_NEAR(best, law, 0.7) << describe(kernel);
+    EXPECT_LT(error(law), 1.25 * error(best)) << describe(kernel);
+  }
+}
+
+// More taps are better, all weights count once, and taps on the axis alone are not enough for any kernel.
+TEST(QuickTaps, FitKernels) {
+  for (const ZonalKernel& kernel : {make_ggx_kernel(0.1), make_phong_kernel(20), make_gaussian_kernel(0.3)}) {
+    double last = 1;
+    for (int count : {8, 16}) {
+      const QuickTaps fit = fit_quick_taps(kernel, count, 0.01);
+      double total = 0, cosine = 1;
+      for (const QuickTap& tap : fit.taps) {
+        total += tap.weight;
+        cosine = std::min(cosine, tap.direction.z);
+        EXPECT_GE(tap.weight, 0);
+        EXPECT_NEAR(length(tap.direction), 1, 1e-12);
+      }
+      EXPECT_LE(fit.taps.size(), static_cast<std::size_t>(count));
+      EXPECT_NEAR(total, 1, 1e-12);
+      EXPECT_LT(cosine, 1 - 1e-4);
+      EXPECT_LT(fit.predicted_rms, 0.9 * last) << describe(kernel) << ", " << count;
+      last = fit.predicted_rms;
+    }
+    EXPECT_LT(last, 0.06) << describe(kernel);
   }
 }
 
