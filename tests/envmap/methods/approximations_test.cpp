@@ -12,6 +12,7 @@
 #include <welkin/envmap/methods/working_cube.h>
 #include <welkin/error.h>
 #include <welkin/sphere/cube.h>
+#include <welkin/sphere/equirect.h>
 
 // The methods that treat the sphere as pictures (bordered, box, paraboloid), and the one of few taps (quick): errors
 // as their pages state them.
@@ -58,6 +59,32 @@ TEST(Approximations, StayWithinTheirStatedErrors) {
     EXPECT_LT(error(FilterMethod::paraboloid), s.paraboloid) << describe(s.kernel);
     EXPECT_LT(error(FilterMethod::quick), s.quick) << describe(s.kernel);
   }
+}
+
+// Light that is smooth over the sphere, where a lobe's width matters little and its place, and what lies beyond an edge, much.
+Image smooth_map(int width) {
+  Image map(width, width / 2);
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Vec3 d = equirect_direction({(x + 0.5) / width, (y + 0.5) / map.height});
+      const double rgb[3] = {2 + d.x + d.y, 2 - d.z + d.x * d.y, 1 + d.y * d.z};
+      for (int c = 0; c < 3; ++c) map.at(x, y)[c] = static_cast<float>(rgb[c]);
+    }
+  return map;
+}
+
+// Limits 1.3 to 1.5 times above what was measured; box is off by its squares and steps.
+TEST(Approximations, AreNearTheTruthOnSmoothMaps) {
+  const Image map = smooth_map(64);
+  const FilterTarget target{make_phong_kernel(60), 16, 1};
+  const Cube truth = filter_by_method(map, target, FilterMethod::frequency);
+  const auto error = [&](FilterMethod method) {
+    return relative_rms(filter_by_method(map, target, method), truth);
+  };
+  EXPECT_LT(error(FilterMethod::bordered), 0.0055);
+  EXPECT_LT(error(FilterMethod::box), 0.024);
+  EXPECT_LT(error(FilterMethod::paraboloid), 0.0008);
+  EXPECT_LT(error(FilterMethod::quick), 0.0027);
 }
 
 const FilterMethod methods[] = {FilterMethod::bordered, FilterMethod::box, FilterMethod::paraboloid,
