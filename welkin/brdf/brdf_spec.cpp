@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <string>
 #include <vector>
 
+#include <welkin/brdf/lafortune.h>
 #include <welkin/brdf/merl.h>
 #include <welkin/brdf/models.h>
+#include <welkin/brdf/spec_numbers.h>
 #include <welkin/error.h>
 #include <welkin/image/output_file.h>
 
@@ -19,27 +19,17 @@ namespace {
 
 using Rgb = std::array<double, 3>;
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t at = std::min(text.find(separator), text.size());
-    parts.push_back(text.substr(0, at));
-    if (at == text.size()) return parts;
-    text.remove_prefix(at + 1);
-  }
-}
-
 // The parameters of one model, taken from first to last.
 class Parameters {
  public:
   Parameters(std::string_view spec, std::string_view form, std::string_view text) : spec_(spec), form_(form) {
-    if (!text.empty()) parts_ = split(text, ',');
+    if (!text.empty()) parts_ = split_spec(text, ',');
   }
 
   double number() { return parse(next()); }
 
   Rgb colour() {
-    const std::vector<std::string_view> parts = split(next(), ':');
+    const std::vector<std::string_view> parts = split_spec(next(), ':');
     if (parts.size() == 1) {
       const double grey = parse(parts[0]);
       return {grey, grey, grey};
@@ -62,11 +52,9 @@ class Parameters {
   }
 
   double parse(std::string_view text) const {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-      refuse(fmt::format("'{}' is not a number", text));
-    return value;
+    const std::optional<double> value = spec_number(text);
+    if (!value) refuse(fmt::format("'{}' is not a number", text));
+    return *value;
   }
 
   [[noreturn]] void refuse(const std::string& what) const {
@@ -138,6 +126,7 @@ IsotropicBrdf parse_brdf(std::string_view spec) {
   const std::string_view name = spec.substr(0, colon);
   const std::string_view rest = spec.substr(std::min(colon + 1, spec.size()));
   if (name == "merl") return read_measured(rest);
+  if (name == "lafortune") return make_lafortune_brdf(parse_lafortune(rest));
   for (const Model& model : models) {
     if (model.name != name) continue;
     Parameters parameters(spec, model.form, rest);
@@ -152,7 +141,7 @@ std::string_view brdf_choices() {
   static const std::string choices = [] {
     std::string text;
     for (const Model& model : models) text += fmt::format("{}, ", model.form);
-    return text + "merl:FILE";
+    return text + "lafortune:CX:CY:CZ:N[:SCALE],...[,diffuse:ALBEDO], merl:FILE";
   }();
   return choices;
 }

@@ -9,7 +9,7 @@ namespace welkin {
 ///   lambert:ALBEDO               ggx:ALPHA[,F0]               merl:FILE
 ///   phong:N[,SCALE]              ggx-dielectric:ALPHA,ETA
 ///   blinn-phong:N[,SCALE]        ggx-conductor:ALPHA,ETA,K
-///   ward:ALPHA[,SPECULAR]
+///   ward:ALPHA[,SPECULAR]        lafortune:CX:CY:CZ:N[:SCALE],...[,diffuse:ALBEDO]   (CX = CY; see lafortune.h)
 /// F0 is 0.04 and the other scales 1 unless given; ALBEDO, SCALE, SPECULAR, F0, ETA and K of a conductor may be three
 /// numbers, R:G:B. Throws Error that names the choices for an unknown model, and that says which parameter is missing,
 /// superfluous, no number or out of range.
