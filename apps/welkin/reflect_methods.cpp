@@ -8,6 +8,8 @@
 #include <welkin/envmap/reflection/shrm.h>
 #include <welkin/error.h>
 
+#include "reflect_lobe_methods.h"
+
 namespace welkin {
 namespace {
 
@@ -35,6 +37,12 @@ PreparedReflection prepare_low_frequency_method(const ReflectInput& input) {
 
 const std::vector<ReflectMethod>& reflect_methods() {
   static const std::vector<ReflectMethod> methods{
+      {"lobes", "a lobe per view elevation, Kautz & McCool 2000", prepare_lobes_method},
+      {"lobes-2", "the same, two lobes", prepare_two_lobes_method},
+      {"lobes-published", "the same, one, the cosine outside of the integral",
+       prepare_published_lobes_method},
+      {"single-lobe", "one lobe scaled and turned, the same", prepare_single_lobe_method},
+      {"lafortune", "lafortune:... alone, McAllister et al. 2002", prepare_lafortune_method},
       {"shrm", "spherical-harmonic reflection map within --error-bound, Ramamoorthi & Hanrahan 2002",
        prepare_shrm_method},
       {"low-frequency", "light of degree 4, Kautz, Sloan & Snyder 2002", prepare_low_frequency_method}};

@@ -1,5 +1,9 @@
 # Light reflected by surfaces, as the viewer sees it; paths are relative to welkin/envmap.
 set(WELKIN_REFLECTION_SOURCES
+  reflection/lafortune_stack.cpp
+  reflection/lafortune_truth.cpp
+  reflection/lobe_stack.cpp
+  reflection/stack_files.cpp
   reflection/simplex_search.cpp
   reflection/split_sum.cpp
   reflection/stretched_taps.cpp
