@@ -8,7 +8,7 @@
 
 #include <welkin/parallel/parallel_for.h>
 #include <welkin/parallel/target_clones.h>
-#include <welkin/sh/row_fft.h>
+#include <welkin/sh/batch_fft.h>
 #include <welkin/sphere/equirect.h>
 
 // Derivation. Let u = (x, z, y) of the world, so that the equirectangular azimuth is right-handed about u_3, and
@@ -30,7 +30,8 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
-constexpr int lanes = 16;  // rows that are worked on together
+constexpr int lanes = BatchFft::batch_lanes;  // rows that are worked on together
+constexpr int series_at_once = 4;
 
 // d^l0_mq at the half angle whose logarithms of cosine and sine are given, times e_m e_q.
 double starting_value(int m, int q, double log_cos, double log_sin) {
@@ -81,21 +82,16 @@ void wigner_column(int m, int q, int max_degree, const RowBlock& rows, std::vect
   }
 }
 
-// sums[4][lanes] = sum over l of weights[l * 4 + j] table[l][lane].
+// sums[j * lanes + lane] = sum over l of weights[l * 8 + j] table[l * lanes + lane], j < 2 series_at_once = 8.
 WELKIN_TARGET_CLONES void sum_degrees(const double* weights, const double* table, int degrees, double* sums) {
-  double s0[lanes] = {}, s1[lanes] = {}, s2[lanes] = {}, s3[lanes] = {};
+  double s[8][lanes] = {};
   for (int l = 0; l < degrees; ++l) {
-    const double* w = weights + 4 * l;
+    const double* w = weights + 8 * l;
     const double* d = table + static_cast<std::size_t>(l) * lanes;
-    for (int i = 0; i < lanes; ++i) s0[i] += w[0] * d[i];
-    for (int i = 0; i < lanes; ++i) s1[i] += w[1] * d[i];
-    for (int i = 0; i < lanes; ++i) s2[i] += w[2] * d[i];
-    for (int i = 0; i < lanes; ++i) s3[i] += w[3] * d[i];
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < lanes; ++i) s[j][i] += w[j] * d[i];
   }
-  std::copy_n(s0, lanes, sums);
-  std::copy_n(s1, lanes, sums + lanes);
-  std::copy_n(s2, lanes, sums + 2 * lanes);
-  std::copy_n(s3, lanes, sums + 3 * lanes);
+  std::copy_n(&s[0][0], 8 * lanes, sums);
 }
 
 Complex coefficient(const Spectrum& spectrum, int l, int m, int channel) {
@@ -103,32 +99,35 @@ Complex coefficient(const Spectrum& spectrum, int l, int m, int channel) {
   return m < 0 ? std::conj(a) : a;
 }
 
-// Fourier coefficients in azimuth of the filters of one spin: orders[((series * lanes) + lane) * columns + m], the
-// series being filter * channels + channel; negative m at columns + m.
+// Fourier coefficients in azimuth of the filters of one spin, the series being filter * channels + channel: real
+// parts of all lanes and then their imaginary parts; from m = -degree on.
 struct SpinOrders {
-  int columns = 0;
-  std::vector<Complex> orders;
-  std::vector<double> table, weights;
+  int degree = 0;
+  std::vector<double> orders, table, weights;
+  std::vector<float> lines;  // [(series * columns + column) * 2 lanes + part * lanes + lane]
 
-  Complex* at(int series, int lane) {
-    return &orders[(static_cast<std::size_t>(series) * lanes + lane) * columns];
+  double* at(int series, int m) {
+    return &orders[(static_cast<std::size_t>(series) * (2 * degree + 1) + m + degree) * 2 * lanes];
   }
 };
 
-// weights[(pair * degrees + l - l0) * 4 + j]: real and imaginary parts of two series a pair.
+// weights[(group * degrees + l - l0) * 8 + j]: real and imaginary parts of the four series of a group.
 void fill_weights(const Spectrum& spectrum, std::span<const SpinFilter> filters, int m, int l0,
                   SpinOrders& out) {
   const int degrees = spectrum.max_degree - l0 + 1, channels = spectrum.channels;
   const int series = static_cast<int>(filters.size()) * channels;
-  out.weights.assign(static_cast<std::size_t>((series + 1) / 2) * degrees * 4, 0.0);
-  for (int s = 0; s < series; ++s) {
-    const SpinFilter& filter = filters[s / channels];
-    const int c = s % channels;
-    double* w = &out.weights[static_cast<std::size_t>(s / 2) * degrees * 4 + (s % 2) * 2];
-    for (int l = l0; l <= spectrum.max_degree; ++l, w += 4) {
-      const Complex a = filter.factors[l * channels + c] * coefficient(spectrum, l, m, c);
-      w[0] = a.real();
-      w[1] = a.imag();
+  const int groups = (series + series_at_once - 1) / series_at_once;
+  out.weights.assign(static_cast<std::size_t>(groups) * degrees * 8, 0.0);
+  for (int l = l0; l <= spectrum.max_degree; ++l) {
+    for (int c = 0; c < channels; ++c) {
+      const Complex a = coefficient(spectrum, l, m, c);
+      for (int s = c; s < series; s += channels) {
+        const double factor = filters[s / channels].factors[l * channels + c];
+        double* w = &out.weights[(static_cast<std::size_t>(s / series_at_once) * degrees + l - l0) * 8 +
+                                 s % series_at_once * 2];
+        w[0] = factor * a.real();
+        w[1] = factor * a.imag();
+      }
     }
   }
 }
@@ -137,43 +136,58 @@ void gather_spin_orders(const Spectrum& spectrum, std::span<const SpinFilter> fi
                         const std::vector<Complex>& phases, SpinOrders& out) {
   const int degree = spectrum.max_degree, q = filters.front().spin;
   const int series = static_cast<int>(filters.size()) * spectrum.channels;
-  out.orders.assign(static_cast<std::size_t>(series) * lanes * out.columns, Complex{});
-  double sums[4 * lanes];
+  out.orders.assign(static_cast<std::size_t>(series) * (2 * degree + 1) * 2 * lanes, 0.0);
+  double sums[8 * lanes];
   for (int m = -degree; m <= degree; ++m) {
     const int l0 = std::max(std::abs(m), q), degrees = degree - l0 + 1;
     if (degrees <= 0) continue;
     wigner_column(m, q, degree, rows, out.table);
     fill_weights(spectrum, filters, m, l0, out);
     const Complex phase = m < 0 ? std::conj(phases[-m]) : phases[m];
-    const int place = m < 0 ? out.columns + m : m;
     for (int s = 0; s < series; ++s) {
-      if (s % 2 == 0)
-        sum_degrees(&out.weights[static_cast<std::size_t>(s / 2) * degrees * 4], out.table.data(), degrees,
-                    sums);
-      const double* re = sums + (s % 2) * 2 * lanes;
-      for (int i = 0; i < rows.count; ++i) out.at(s, i)[place] = phase * Complex(re[i], re[i + lanes]);
+      if (s % series_at_once == 0)
+        sum_degrees(&out.weights[static_cast<std::size_t>(s / series_at_once) * degrees * 8],
+                    out.table.data(), degrees, sums);
+      const double* re = sums + s % series_at_once * 2 * lanes;
+      double* to = out.at(s, m);
+      for (int i = 0; i < lanes; ++i) {
+        to[i] = phase.real() * re[i] - phase.imag() * re[i + lanes];
+        to[i + lanes] = phase.real() * re[i + lanes] + phase.imag() * re[i];
+      }
     }
   }
 }
 
-// The rows of one spin, by FFT; `first_slot` is where they stand in a texel.
-void write_rows(SpinOrders& orders, int filters, bool real, const RowBlock& rows, int first_slot,
+void transform_series(SpinOrders& orders, int series, BatchFft& fft) {
+  const int columns = fft.length(), degree = orders.degree;
+  orders.lines.resize(static_cast<std::size_t>(series) * columns * 2 * lanes);
+  float* line = orders.lines.data();
+  for (int s = 0; s < series; ++s) {
+    for (int k = degree + 1; k < columns - degree; ++k) std::fill_n(fft.at(k), 2 * lanes, 0.0);
+    for (int m = -degree; m <= degree; ++m)
+      std::copy_n(orders.at(s, m), 2 * lanes, fft.at(m < 0 ? columns + m : m));
+    fft.transform();
+    for (int column = 0; column < columns; ++column)
+      for (int i = 0; i < 2 * lanes; ++i) *line++ = static_cast<float>(fft.at(column)[i]);
+  }
+}
+
+// The rows of one spin; `first_slot` is where they stand in a texel.
+void write_rows(const SpinOrders& orders, int series, bool real, const RowBlock& rows, int first_slot,
                 SpinGrid& grid) {
-  const int channels = grid.channels, series = filters * channels, parts = real ? 1 : 2;
-  RowFft fft(grid.columns, true);
-  std::vector<Complex> lines(static_cast<std::size_t>(series) * grid.columns);
-  for (int i = 0; i < rows.count; ++i) {
-    for (int s = 0; s < series; ++s)
-      fft.transform(orders.at(s, i), &lines[static_cast<std::size_t>(s) * grid.columns]);
-    for (int column = 0; column < grid.columns; ++column) {
+  const int channels = grid.channels, parts = real ? 1 : 2;
+  for (int column = 0; column < grid.columns; ++column) {
+    for (int i = 0; i < rows.count; ++i) {
       float* out =
           &grid.values[(static_cast<std::size_t>(rows.first + i) * grid.columns + column) * grid.stride() +
                        first_slot * channels];
-      for (int s = 0; s < series; ++s) {
-        const Complex value = lines[static_cast<std::size_t>(s) * grid.columns + column];
-        float* slot = out + (s / channels) * parts * channels + s % channels;
-        slot[0] = static_cast<float>(value.real());
-        if (!real) slot[channels] = static_cast<float>(value.imag());
+      for (int s = 0; s < series; s += channels, out += parts * channels) {
+        for (int c = 0; c < channels; ++c) {
+          const float* line =
+              &orders.lines[(static_cast<std::size_t>(s + c) * grid.columns + column) * 2 * lanes];
+          out[c] = line[i];
+          if (!real) out[c + channels] = line[i + lanes];
+        }
       }
     }
   }
@@ -197,17 +211,21 @@ SpinGrid synthesize_spin(const Spectrum& spectrum, std::span<const SpinFilter> f
   grid.values.resize(static_cast<std::size_t>(rows) * columns * grid.stride());
   std::vector<Complex> phases(spectrum.max_degree + 1);
   for (int m = 0; m <= spectrum.max_degree; ++m) phases[m] = std::polar(1.0, m * (pi / columns - pi));
+  const BatchFft prepared(columns, true);
   parallel_for((rows + lanes - 1) / lanes, 1, [&](std::size_t begin, std::size_t end) {
+    BatchFft fft(prepared);
+    SpinOrders orders{spectrum.max_degree, {}, {}, {}, {}};
     for (std::size_t block = begin; block < end; ++block) {
       const RowBlock block_rows(static_cast<int>(block) * lanes, rows);
-      SpinOrders orders{columns, {}, {}, {}};
       int slot = 0;
       for (std::size_t first = 0, last; first < filters.size(); first = last) {
         const int spin = filters[first].spin;
         for (last = first; last < filters.size() && filters[last].spin == spin;) ++last;
         const auto group = filters.subspan(first, last - first);
+        const int series = static_cast<int>(group.size()) * spectrum.channels;
         gather_spin_orders(spectrum, group, block_rows, phases, orders);
-        write_rows(orders, static_cast<int>(group.size()), spin == 0, block_rows, slot, grid);
+        transform_series(orders, series, fft);
+        write_rows(orders, series, spin == 0, block_rows, slot, grid);
         slot += static_cast<int>(group.size()) * (spin > 0 ? 2 : 1);
       }
     }
