@@ -31,7 +31,6 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 constexpr int lanes = BatchFft::batch_lanes;  // rows that are worked on together
-constexpr int series_at_once = 4;
 
 // d^l0_mq at the half angle whose logarithms of cosine and sine are given, times e_m e_q.
 double starting_value(int m, int q, double log_cos, double log_sin) {
@@ -82,16 +81,34 @@ void wigner_column(int m, int q, int max_degree, const RowBlock& rows, std::vect
   }
 }
 
-// sums[j * lanes + lane] = sum over l of weights[l * 8 + j] table[l * lanes + lane], j < 2 series_at_once = 8.
+// sums[(2 j + part) * lanes + lane] = sum over l of weights[l * 4 + j] table[(l * 2 + part) * lanes + lane], j < 4.
 WELKIN_TARGET_CLONES void sum_degrees(const double* weights, const double* table, int degrees, double* sums) {
-  double s[8][lanes] = {};
+  double re0[lanes] = {}, re1[lanes] = {}, re2[lanes] = {}, re3[lanes] = {};
+  double im0[lanes] = {}, im1[lanes] = {}, im2[lanes] = {}, im3[lanes] = {};
   for (int l = 0; l < degrees; ++l) {
-    const double* w = weights + 8 * l;
-    const double* d = table + static_cast<std::size_t>(l) * lanes;
-    for (int j = 0; j < 8; ++j)
-      for (int i = 0; i < lanes; ++i) s[j][i] += w[j] * d[i];
+    const double* w = weights + 4 * l;
+    const double* re = table + static_cast<std::size_t>(l) * 2 * lanes;
+    const double* im = re + lanes;
+    for (int i = 0; i < lanes; ++i) re0[i] += w[0] * re[i];
+    for (int i = 0; i < lanes; ++i) im0[i] += w[0] * im[i];
+    for (int i = 0; i < lanes; ++i) re1[i] += w[1] * re[i];
+    for (int i = 0; i < lanes; ++i) im1[i] += w[1] * im[i];
+    for (int i = 0; i < lanes; ++i) re2[i] += w[2] * re[i];
+    for (int i = 0; i < lanes; ++i) im2[i] += w[2] * im[i];
+    for (int i = 0; i < lanes; ++i) re3[i] += w[3] * re[i];
+    for (int i = 0; i < lanes; ++i) im3[i] += w[3] * im[i];
   }
-  std::copy_n(&s[0][0], 8 * lanes, sums);
+  const double* parts[8] = {re0, im0, re1, im1, re2, im2, re3, im3};
+  for (int j = 0; j < 8; ++j) std::copy_n(parts[j], lanes, sums + j * lanes);
+}
+
+// out[(l * 2 + part) * lanes + lane] = part of a_l times table[l * lanes + lane].
+WELKIN_TARGET_CLONES void scale_column(const double* re, const double* im, const double* table, int degrees,
+                                       double* out) {
+  for (int l = 0; l < degrees; ++l) {
+    for (int i = 0; i < lanes; ++i) out[2 * l * lanes + i] = re[l] * table[l * lanes + i];
+    for (int i = 0; i < lanes; ++i) out[(2 * l + 1) * lanes + i] = im[l] * table[l * lanes + i];
+  }
 }
 
 Complex coefficient(const Spectrum& spectrum, int l, int m, int channel) {
@@ -99,98 +116,123 @@ Complex coefficient(const Spectrum& spectrum, int l, int m, int channel) {
   return m < 0 ? std::conj(a) : a;
 }
 
-// Fourier coefficients in azimuth of the filters of one spin, the series being filter * channels + channel: real
-// parts of all lanes and then their imaginary parts; from m = -degree on.
+// The filters of one spin. Channel by channel they are summed in fours: weights[((channel * fours + four) *
+// (max_degree + 1) + l) * 4 + j] is the factor of the filter 4 four + j.
+struct SpinGroup {
+  int spin = 0, filters = 0, fours = 0, channels = 0, max_degree = 0;
+  std::vector<double> weights;
+
+  SpinGroup(std::span<const SpinFilter> group, const Spectrum& spectrum)
+      : spin(group.front().spin),
+        filters(static_cast<int>(group.size())),
+        fours((filters + 3) / 4),
+        channels(spectrum.channels),
+        max_degree(spectrum.max_degree) {
+    weights.resize(static_cast<std::size_t>(channels) * fours * (max_degree + 1) * 4);
+    for (int f = 0; f < filters; ++f)
+      for (int l = 0; l <= max_degree; ++l)
+        for (int c = 0; c < channels; ++c) at(c, f / 4, l)[f % 4] = group[f].factors[l * channels + c];
+  }
+  double* at(int channel, int four, int l) {
+    return &weights[((static_cast<std::size_t>(channel) * fours + four) * (max_degree + 1) + l) * 4];
+  }
+  const double* at(int channel, int four, int l) const {
+    return const_cast<SpinGroup*>(this)->at(channel, four, l);
+  }
+  int series() const { return filters * channels; }
+  int parts() const { return spin > 0 ? 2 : 1; }  // real maps a filter
+};
+
+// Fourier coefficients in azimuth of a group, the series being filter * channels + channel: real parts of all lanes
+// and then their imaginary parts; from m = -degree on. And the rows that they give.
 struct SpinOrders {
   int degree = 0;
-  std::vector<double> orders, table, weights;
-  std::vector<float> lines;  // [(series * columns + column) * 2 lanes + part * lanes + lane]
+  std::vector<double> orders, table, re, im, scaled;
+  std::vector<float> lines;  // [(column * slots * channels + slot * channels + channel) * lanes + lane]
 
   double* at(int series, int m) {
     return &orders[(static_cast<std::size_t>(series) * (2 * degree + 1) + m + degree) * 2 * lanes];
   }
 };
 
-// weights[(group * degrees + l - l0) * 8 + j]: real and imaginary parts of the four series of a group.
-void fill_weights(const Spectrum& spectrum, std::span<const SpinFilter> filters, int m, int l0,
-                  SpinOrders& out) {
-  const int degrees = spectrum.max_degree - l0 + 1, channels = spectrum.channels;
-  const int series = static_cast<int>(filters.size()) * channels;
-  const int groups = (series + series_at_once - 1) / series_at_once;
-  out.weights.assign(static_cast<std::size_t>(groups) * degrees * 8, 0.0);
-  for (int l = l0; l <= spectrum.max_degree; ++l) {
-    for (int c = 0; c < channels; ++c) {
-      const Complex a = coefficient(spectrum, l, m, c);
-      for (int s = c; s < series; s += channels) {
-        const double factor = filters[s / channels].factors[l * channels + c];
-        double* w = &out.weights[(static_cast<std::size_t>(s / series_at_once) * degrees + l - l0) * 8 +
-                                 s % series_at_once * 2];
-        w[0] = factor * a.real();
-        w[1] = factor * a.imag();
-      }
-    }
+void turn(Complex phase, const double* sums, double* to) {
+  for (int i = 0; i < lanes; ++i) {
+    to[i] = phase.real() * sums[i] - phase.imag() * sums[i + lanes];
+    to[i + lanes] = phase.real() * sums[i + lanes] + phase.imag() * sums[i];
   }
 }
 
-void gather_spin_orders(const Spectrum& spectrum, std::span<const SpinFilter> filters, const RowBlock& rows,
+void gather_spin_orders(const Spectrum& spectrum, const SpinGroup& group, const RowBlock& rows,
                         const std::vector<Complex>& phases, SpinOrders& out) {
-  const int degree = spectrum.max_degree, q = filters.front().spin;
-  const int series = static_cast<int>(filters.size()) * spectrum.channels;
-  out.orders.assign(static_cast<std::size_t>(series) * (2 * degree + 1) * 2 * lanes, 0.0);
+  const int degree = spectrum.max_degree;
+  out.orders.assign(static_cast<std::size_t>(group.series()) * (2 * degree + 1) * 2 * lanes, 0.0);
   double sums[8 * lanes];
   for (int m = -degree; m <= degree; ++m) {
-    const int l0 = std::max(std::abs(m), q), degrees = degree - l0 + 1;
+    const int l0 = std::max(std::abs(m), group.spin), degrees = degree - l0 + 1;
     if (degrees <= 0) continue;
-    wigner_column(m, q, degree, rows, out.table);
-    fill_weights(spectrum, filters, m, l0, out);
+    wigner_column(m, group.spin, degree, rows, out.table);
+    out.re.resize(degrees);
+    out.im.resize(degrees);
+    out.scaled.resize(static_cast<std::size_t>(degrees) * 2 * lanes);
     const Complex phase = m < 0 ? std::conj(phases[-m]) : phases[m];
-    for (int s = 0; s < series; ++s) {
-      if (s % series_at_once == 0)
-        sum_degrees(&out.weights[static_cast<std::size_t>(s / series_at_once) * degrees * 8],
-                    out.table.data(), degrees, sums);
-      const double* re = sums + s % series_at_once * 2 * lanes;
-      double* to = out.at(s, m);
-      for (int i = 0; i < lanes; ++i) {
-        to[i] = phase.real() * re[i] - phase.imag() * re[i + lanes];
-        to[i + lanes] = phase.real() * re[i + lanes] + phase.imag() * re[i];
+    for (int c = 0; c < group.channels; ++c) {
+      for (int l = l0; l <= degree; ++l) {
+        const Complex a = coefficient(spectrum, l, m, c);
+        out.re[l - l0] = a.real();
+        out.im[l - l0] = a.imag();
+      }
+      scale_column(out.re.data(), out.im.data(), out.table.data(), degrees, out.scaled.data());
+      for (int f = 0; f < group.filters; ++f) {
+        if (f % 4 == 0) sum_degrees(group.at(c, f / 4, l0), out.scaled.data(), degrees, sums);
+        turn(phase, sums + f % 4 * 2 * lanes, out.at(f * group.channels + c, m));
       }
     }
   }
 }
 
-void transform_series(SpinOrders& orders, int series, BatchFft& fft) {
-  const int columns = fft.length(), degree = orders.degree;
-  orders.lines.resize(static_cast<std::size_t>(series) * columns * 2 * lanes);
-  float* line = orders.lines.data();
-  for (int s = 0; s < series; ++s) {
+void transform_series(SpinOrders& orders, const SpinGroup& group, BatchFft& fft) {
+  const int columns = fft.length(), degree = orders.degree, parts = group.parts(),
+            run = group.series() * parts;
+  orders.lines.resize(static_cast<std::size_t>(run) * columns * lanes);
+  for (int s = 0; s < group.series(); ++s) {
     for (int k = degree + 1; k < columns - degree; ++k) std::fill_n(fft.at(k), 2 * lanes, 0.0);
     for (int m = -degree; m <= degree; ++m)
       std::copy_n(orders.at(s, m), 2 * lanes, fft.at(m < 0 ? columns + m : m));
     fft.transform();
-    for (int column = 0; column < columns; ++column)
-      for (int i = 0; i < 2 * lanes; ++i) *line++ = static_cast<float>(fft.at(column)[i]);
-  }
-}
-
-// The rows of one spin; `first_slot` is where they stand in a texel.
-void write_rows(const SpinOrders& orders, int series, bool real, const RowBlock& rows, int first_slot,
-                SpinGrid& grid) {
-  const int channels = grid.channels, parts = real ? 1 : 2;
-  for (int column = 0; column < grid.columns; ++column) {
-    for (int i = 0; i < rows.count; ++i) {
-      float* out =
-          &grid.values[(static_cast<std::size_t>(rows.first + i) * grid.columns + column) * grid.stride() +
-                       first_slot * channels];
-      for (int s = 0; s < series; s += channels, out += parts * channels) {
-        for (int c = 0; c < channels; ++c) {
-          const float* line =
-              &orders.lines[(static_cast<std::size_t>(s + c) * grid.columns + column) * 2 * lanes];
-          out[c] = line[i];
-          if (!real) out[c + channels] = line[i + lanes];
-        }
+    for (int part = 0; part < parts; ++part) {
+      const int place = (s / group.channels * parts + part) * group.channels + s % group.channels;
+      for (int column = 0; column < columns; ++column) {
+        float* line = &orders.lines[(static_cast<std::size_t>(column) * run + place) * lanes];
+        const double* value = fft.at(column) + part * lanes;
+        for (int i = 0; i < lanes; ++i) line[i] = static_cast<float>(value[i]);
       }
     }
   }
+}
+
+WELKIN_TARGET_CLONES void take_lane(const float* from, int count, float* to) {
+  for (int k = 0; k < count; ++k) to[k] = from[k * lanes];
+}
+
+// `first_slot` is where the group stands in a texel.
+void write_rows(const SpinOrders& orders, const SpinGroup& group, const RowBlock& rows, int first_slot,
+                SpinGrid& grid) {
+  const int run = group.series() * group.parts();
+  for (int column = 0; column < grid.columns; ++column)
+    for (int i = 0; i < rows.count; ++i)
+      take_lane(
+          &orders.lines[static_cast<std::size_t>(column) * run * lanes + i], run,
+          &grid.values[(static_cast<std::size_t>(rows.first + i) * grid.columns + column) * grid.stride() +
+                       first_slot * grid.channels]);
+}
+
+std::vector<SpinGroup> make_groups(std::span<const SpinFilter> filters, const Spectrum& spectrum) {
+  std::vector<SpinGroup> groups;
+  for (std::size_t first = 0, last; first < filters.size(); first = last) {
+    for (last = first; last < filters.size() && filters[last].spin == filters[first].spin;) ++last;
+    groups.emplace_back(filters.subspan(first, last - first), spectrum);
+  }
+  return groups;
 }
 
 }  // namespace
@@ -212,21 +254,19 @@ SpinGrid synthesize_spin(const Spectrum& spectrum, std::span<const SpinFilter> f
   std::vector<Complex> phases(spectrum.max_degree + 1);
   for (int m = 0; m <= spectrum.max_degree; ++m) phases[m] = std::polar(1.0, m * (pi / columns - pi));
   const BatchFft prepared(columns, true);
+  const std::vector<SpinGroup> groups = make_groups(filters, spectrum);
   parallel_for((rows + lanes - 1) / lanes, 1, [&](std::size_t begin, std::size_t end) {
     BatchFft fft(prepared);
-    SpinOrders orders{spectrum.max_degree, {}, {}, {}, {}};
+    SpinOrders orders;
+    orders.degree = spectrum.max_degree;
     for (std::size_t block = begin; block < end; ++block) {
       const RowBlock block_rows(static_cast<int>(block) * lanes, rows);
       int slot = 0;
-      for (std::size_t first = 0, last; first < filters.size(); first = last) {
-        const int spin = filters[first].spin;
-        for (last = first; last < filters.size() && filters[last].spin == spin;) ++last;
-        const auto group = filters.subspan(first, last - first);
-        const int series = static_cast<int>(group.size()) * spectrum.channels;
+      for (const SpinGroup& group : groups) {
         gather_spin_orders(spectrum, group, block_rows, phases, orders);
-        transform_series(orders, series, fft);
-        write_rows(orders, series, spin == 0, block_rows, slot, grid);
-        slot += static_cast<int>(group.size()) * (spin > 0 ? 2 : 1);
+        transform_series(orders, group, fft);
+        write_rows(orders, group, block_rows, slot, grid);
+        slot += group.filters * group.parts();
       }
     }
   });
