@@ -11,7 +11,8 @@
 #include <welkin/error.h>
 
 // The level bias of a hardware mip chain that is nearest to a kernel, fitted, beside the law box_level_bias. The
-// error of a line is the distance of the law from the fit in levels; on real maps with few lamps the optimum is flat. Usage: bench_box_bias [FILE ...]
+// error of a line is the distance of the law from the fit in levels; on real maps with few lamps the optimum is flat.
+// Usage: bench_box_bias [FILE ...]
 
 namespace {
 

@@ -30,8 +30,8 @@ double relative_rms(const Cube& cube, const Cube& truth) {
   return std::sqrt(squared / reference);
 }
 
-// A kernel, and the largest relative RMS that each method may have with it on lamps over noise (lamp_map, 64 x 32). Measured on
-// six seeds; the limits lie 1.5 times above the worst.
+// A kernel, and the largest relative RMS that each method may have with it on lamps over noise (lamp_map, 64 x 32).
+// Measured on six seeds; the limits lie 1.5 times above the worst.
 struct Stated {
   ZonalKernel kernel;
   double bordered, box, paraboloid, quick;
@@ -61,7 +61,8 @@ TEST(Approximations, StayWithinTheirStatedErrors) {
   }
 }
 
-// Light that is smooth over the sphere, where a lobe's width matters little and its place, and what lies beyond an edge, much.
+// Light that is smooth over the sphere, where a lobe's width matters little and its place, and what lies beyond an
+// edge, much.
 Image smooth_map(int width) {
   Image map(width, width / 2);
   for (int y = 0; y < map.height; ++y)
@@ -123,8 +124,8 @@ Cube turned_by_quarter(const Cube& cube) {
   return turned;
 }
 
-// The cube's symmetry about +Y, and for the paraboloids, which look along z, that of a half turn. The map's resampling to a
-// cube is good to the tolerance; its own errors, which a quarter turn shows, are not.
+// The cube's symmetry about +Y, and for the paraboloids, which look along z, that of a half turn. The map's
+// resampling to a cube is good to the tolerance; its own errors, which a quarter turn shows, are not.
 TEST(Approximations, TurnWithTheMap) {
   const Image map = lamp_map(64, 32, 7), turned = turned_by_quarter(map),
               opposite = turned_by_quarter(turned);
@@ -140,8 +141,8 @@ TEST(Approximations, TurnWithTheMap) {
   }
 }
 
-// Faces that know of each other against faces that do not: the paraboloids have no edges there, the taps of `quick` cross them
-// (bilinear look-ups in coarse levels leave kinks), box mips step.
+// Faces that know of each other against faces that do not: the paraboloids have no edges there, the taps of `quick`
+// cross them (bilinear look-ups in coarse levels leave kinks), box mips step.
 TEST(Approximations, SeamsAreThereOnlyWhereTheyAreStated) {
   const Image map = lamp_map(64, 32, 5);
   const FilterTarget target{make_phong_kernel(60), 16, 1};

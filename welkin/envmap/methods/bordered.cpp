@@ -13,8 +13,8 @@
 namespace welkin {
 namespace {
 
-// The size of the faces that are filtered: fine enough for the kernel, and a multiple of the target's (or a part of it, down to
-// an eighth) by a power of two, so that the two grids repeat against each other.
+// The size of the faces that are filtered: fine enough for the kernel, and a multiple of the target's (or a part of
+// it, down to an eighth) by a power of two, so that the two grids repeat against each other.
 int face_size(const Image& radiance, const FilterTarget& target) {
   const int wanted = working_cube_size(radiance, target.kernel, 8);
   int size = target.size;

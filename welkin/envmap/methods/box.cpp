@@ -46,10 +46,10 @@ void add_look_up(const Cube& cube, CubePoint point, double weight, double* rgb) 
 }  // namespace
 
 // A trilinear look-up in level k is a tent over box-filtered texels: along each axis its variance is (1/12 + 1/6) of a
-// texel squared, a deviation of half a texel, and a texel of the cube's level k is 2^k * 2/cube_size wide in the middle of a
-// face and sqrt(pi/6) of that in the mean over solid angle. It has the deviation of the kernel where
+// texel squared, a deviation of half a texel, and a texel of the cube's level k is 2^k * 2/cube_size wide in the
+// middle of a face and sqrt(pi/6) of that in the mean over solid angle. It has the deviation of the kernel where
 //   2^k sqrt(pi/6) / cube_size = spread,   k = log2(cube_size spread) + 0.467.
-// What is best on maps lies higher, by what the fit of bench_box_bias says (see docs/filters.md).
+// What is best on maps lies higher, by what the fit of bench_box_bias says (see docs/approximate-filters.md).
 double box_level_bias(const ZonalKernel& kernel, int cube_size) {
   constexpr double by_variance = 0.467, fitted = 0.183;
   return std::max(0.0, std::log2(cube_size * kernel_spread(kernel)) + by_variance + fitted);

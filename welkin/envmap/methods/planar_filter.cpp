@@ -59,7 +59,8 @@ double part_weight(const PlaneKernel& kernel, const Part& part, double dx, doubl
   return window != 0 ? window * kernel.weight(dx, dy) : 0;
 }
 
-// The mean of the kernel over a texel at (dx, dy): one node where the kernel hardly varies, up to 16 a side at its peak.
+// The mean of the kernel over a texel at (dx, dy): one node where the kernel hardly varies, up to 16 a side at its
+// peak.
 double texel_weight(const PlaneKernel& kernel, const Part& part, double dx, double dy, double texel) {
   const double scale = std::max(1e-12, std::hypot(kernel.width, std::max(0.0, std::hypot(dx, dy) - texel)));
   const int nodes = std::clamp(static_cast<int>(std::ceil(4 * texel / scale)), 1,

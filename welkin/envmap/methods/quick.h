@@ -13,7 +13,8 @@ struct QuickOptions {
 /// same all over the sphere. The pattern is turned by the direction's east and north, so no seams at edges.
 /// Artefacts: a sharp light becomes as many soft spots as there are taps where these do not overlap (few taps, wide
 /// tails); footprints stretch with texels in the corners of the cube; the pattern swirls around +Y and -Y.
-/// Throws Error for a number of taps out of range. See docs/filters.md for measured errors.
+/// Measured relative RMS with 16 taps: 1 to 4 %, 4 to 18 % under a few small lamps alone; see
+/// docs/approximate-filters.md. Throws Error for a number of taps out of range.
 Cube filter_quick(const Image& radiance, const FilterTarget& target, const QuickOptions& options = {});
 
 }  // namespace welkin

@@ -10,17 +10,17 @@
 #include <welkin/parallel/target_clones.h>
 
 // Taps are a measure on the sphere; both it and the kernel multiply a map's harmonics, and the mean squared error over
-// white maps (a single bright texel is one) goes with the sum over l, m of |K_lm - T_lm|^2. With the addition theorem, a tap at
-// angle theta_i with weight w_i and a Gaussian footprint g_l(s_i) = exp(-l (l + 1) s_i^2 / 2):
+// white maps (a single bright texel is one) goes with the sum over l, m of |K_lm - T_lm|^2. With the addition
+// theorem, a tap at angle theta_i with weight w_i and a Gaussian footprint g_l(s_i) = exp(-l (l + 1) s_i^2 / 2):
 //   error = sum_l (2l + 1) (k_l^2 - 2 k_l sum_i w_i g_l(s_i) P_l(cos theta_i)
 //                               + sum_ij w_i w_j g_l(s_i) g_l(s_j) P_l(cos angle_ij)),
-// which counts what the few taps of a ring miss in azimuth as well. For rings of equal taps the angles between two rings
-// of m and n taps are those of lcm(m, n) evenly spread differences of azimuth. Given angles and footprints the error is
-// quadratic in the weights: they are solved for; a simplex search (Nelder & Mead 1965) finds the rest.
+// which counts what the few taps of a ring miss in azimuth as well. For rings of equal taps the angles between two
+// rings of m and n taps are those of lcm(m, n) evenly spread differences of azimuth. Given angles and footprints the
+// error is quadratic in the weights: they are solved for; a simplex search (Nelder & Mead 1965) finds the rest.
 //
 // Real footprints are not Gaussians of one size: texels stretch, levels are blended, splines have ends. All variances
 // s^2 are taken to be off by one share `footprint_spread`, which adds the error of that,
-//   sum_l (2l + 1) sum_ij w_i w_j d_l(s_i) d_l(s_j) P_l(cos angle_ij),   d_l(s) = footprint_spread l (l + 1) s^2 / 2 g_l(s),
+//   sum_l (2l + 1) sum_ij w_i w_j d_l(s_i) d_l(s_j) P_l(cos angle_ij), d_l(s) = footprint_spread l (l + 1) s^2 g_l(s) / 2,
 // and keeps the fit from leaving everything to one wide tap.
 
 namespace welkin {
@@ -30,8 +30,8 @@ constexpr double pi = std::numbers::pi;
 constexpr int max_rings = 5;
 constexpr double footprint_spread = 0.15;
 
-// The widest footprint (rad): levels of few texels see a lamp shift and stretch, by more than the model above says; with more
-// taps to spread it may be narrower. Chosen on maps of noise, lamps and a sun.
+// The widest footprint (rad): levels of few texels see a lamp shift and stretch, by more than the model above says;
+// with more taps to spread it may be narrower. Chosen on maps of noise, lamps and a sun.
 double widest_footprint(int count) { return 0.45 / std::sqrt(std::sqrt(count)); }
 
 struct Ring {

@@ -20,11 +20,10 @@ struct QuickTaps {
   double predicted_rms = 0;
 };
 
-/// The best `count` Gaussian look-ups (2 to 64) for a kernel, none narrower than least_deviation (rad). Rings of equal taps around
-/// the axis; their angles, footprints and weights minimise the mean squared error of the filtered map over white maps,
-/// with footprints a little wider or narrower than they should be. Derivation in quick_taps.cpp. The same result every
-/// time.
-/// Throws Error for a count out of range.
+/// The best `count` Gaussian look-ups (2 to 64) for a kernel, none narrower than least_deviation (rad). Rings of
+/// equal taps around the axis; their angles, footprints and weights minimise the mean squared error of the filtered
+/// map over white maps, with footprints a little wider or narrower than they should be. Derivation in quick_taps.cpp.
+/// The same result every time. Throws Error for a count out of range.
 QuickTaps fit_quick_taps(const ZonalKernel& kernel, int count, double least_deviation);
 
 }  // namespace welkin

@@ -82,8 +82,8 @@ SplineMips::SplineMips(const Cube& cube) {
   while (levels_.back().size > 1) levels_.push_back(halved(levels_.back()));
 }
 
-// A texel's footprint is a box of variance 1/12, bilinear interpolation adds 1/6 of its level's texels, and each step of
-// 1 3 3 1 adds 3/4 of the finer level's: in texels of level 0, level k has 5/12 4^k - 1/6.
+// A texel's footprint is a box of variance 1/12, bilinear interpolation adds 1/6 of its level's texels, and each step
+// of 1 3 3 1 adds 3/4 of the finer level's: in texels of level 0, level k has 5/12 4^k - 1/6.
 double SplineMips::least_deviation() const {
   const double texel = std::sqrt(4 * std::numbers::pi / 6) / levels_.front().size;
   return 0.5 * texel;
@@ -105,8 +105,8 @@ void SplineMips::Level::add_bilinear(int face, double s, double t, double weight
               static_cast<double>(w[3]) * static_cast<double>(below[c + 4]);
 }
 
-// At (s, t) of a face a texel is 2/size (1 + s^2 + t^2)^(-3/4) wide (root of its solid angle). Between levels k and k + 1
-// the variance is linear in the share of the upper: 5/12 4^k (1 + 3 share) - 1/6.
+// At (s, t) of a face a texel is 2/size (1 + s^2 + t^2)^(-3/4) wide (root of its solid angle). Between levels k and k
+// + 1 the variance is linear in the share of the upper: 5/12 4^k (1 + 3 share) - 1/6.
 void SplineMips::add_look_up(Vec3 direction, double deviation, double weight, double* rgb) const {
   const CubePoint p = cube_point(direction);
   const double n = levels_.front().size, r2 = 1 + p.s * p.s + p.t * p.t;

@@ -9,8 +9,8 @@
 namespace welkin {
 
 /// A cube's mip chain by quadratic B-splines, made for the cube as Manson & Sloan 2016 do: a coarse texel is the mean
-/// of the 4 x 4 texels around it with weights 1 3 3 1 along each axis times solid angle, across edges too; in the three corners of
-/// 12 texels. Look-ups are bilinear and seamless (the rules of look_up_cube).
+/// of the 4 x 4 texels around it with weights 1 3 3 1 along each axis times solid angle, across edges too; in the
+/// three corners of 12 texels. Look-ups are bilinear and seamless (the rules of look_up_cube).
 class SplineMips {
  public:
   /// 3 channels.
