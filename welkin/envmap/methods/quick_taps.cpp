@@ -20,7 +20,7 @@
 //
 // Real footprints are not Gaussians of one size: texels stretch, levels are blended, splines have ends. All variances
 // s^2 are taken to be off by one share `footprint_spread`, which adds the error of that,
-//   sum_l (2l + 1) sum_ij w_i w_j d_l(s_i) d_l(s_j) P_l(cos angle_ij), d_l(s) = footprint_spread l (l + 1) s^2 g_l(s) / 2,
+// sum_l (2l + 1) sum_ij w_i w_j d_l(s_i) d_l(s_j) P_l(cos angle_ij), d_l(s) = footprint_spread l (l + 1) s^2 g_l(s) / 2,
 // and keeps the fit from leaving everything to one wide tap.
 
 namespace welkin {
