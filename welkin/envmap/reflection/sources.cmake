@@ -4,6 +4,7 @@ set(WELKIN_REFLECTION_SOURCES
   reflection/lafortune_truth.cpp
   reflection/lobe_stack.cpp
   reflection/stack_files.cpp
+  reflection/fresnel_blend.cpp
   reflection/simplex_search.cpp
   reflection/split_sum.cpp
   reflection/stretched_taps.cpp
