@@ -45,7 +45,7 @@ struct IblCommand {
   std::string kernel = "ggx", law = "linear", diffuse = "frequency";
   std::string container = "ktx2", format = "rgba16f", range = "scale";
   int zstd_level = 0;
-  bool multiple_scattering = false, verify = false;
+  bool multiple_scattering = false, stretched_taps = false, verify = false;
   VerifyOptions verify_options;
   bool json = false;
 };
@@ -177,6 +177,8 @@ void check(const IblCommand& command) {
   if (command.options.levels > most)
     throw CLI::ValidationError("--levels",
                                fmt::format("a cube of {} has {} levels at most", command.options.size, most));
+  if (command.stretched_taps && (command.kernel != "ggx" || command.options.levels == 1))
+    throw CLI::ValidationError("--stretched-taps", "is for --kernel ggx and at least 2 levels");
   check_folder(command.output);
   const std::filesystem::path residual = command.lights.residual;
   if (residual.empty()) return;
@@ -227,6 +229,13 @@ void print_taken(const Taken& taken) {
       taken.errors.directional_max, taken.errors.disc_max);
 }
 
+void describe_taps(const StretchedTapsTable& taps, nlohmann::ordered_json& manifest) {
+  manifest["stretched_taps"] = {
+      {"taps", taps.taps}, {"cos_size", taps.cos_size}, {"roughness_size", taps.roughness_size}};
+  manifest["files"].push_back(
+      {{"name", "stretched_taps.glsl"}, {"quantity", "the shader of stretched_taps"}, {"format", "glsl"}});
+}
+
 void run(IblCommand command) {
   check(command);
   const auto start = std::chrono::steady_clock::now();
@@ -238,9 +247,12 @@ void run(IblCommand command) {
   options.law = parse_level_law(command.law);
   options.diffuse = parse_diffuse(command.diffuse);
   if (command.multiple_scattering) options.dfg_form = DfgForm::scale_bias_with_multiple_scattering;
-  const IblFileOptions file_options{parse_container(command.container), parse_pixel_format(command.format),
-                                    command.range == "clip" ? RangePolicy::clip : RangePolicy::scale,
-                                    command.zstd_level, options.law};
+  IblFileOptions file_options{parse_container(command.container),
+                              parse_pixel_format(command.format),
+                              command.range == "clip" ? RangePolicy::clip : RangePolicy::scale,
+                              command.zstd_level,
+                              options.law,
+                              nullptr};
   const Environment environment = load(command.in);
   const double load_seconds = seconds();
   for (const std::string& warning : environment.warnings)
@@ -263,6 +275,11 @@ void run(IblCommand command) {
           stderr,
           "welkin: {}: warning: level {} could not be filtered to the error bound; check it with --verify\n",
           environment.source, k);
+  std::optional<StretchedTapsTable> taps;
+  if (command.stretched_taps)
+    taps = make_stretched_taps_table(
+        {set.specular.size(), static_cast<int>(set.specular.levels.size()), options.law});
+  if (taps) file_options.taps = &*taps;
   std::vector<IblFile> files = encode_ibl_files(set, file_options);
   const ManifestInput described{&environment,
                                 command.in.options.rotate_degrees,
@@ -275,10 +292,12 @@ void run(IblCommand command) {
                                 &taken.errors,
                                 load_seconds,
                                 seconds()};
-  const nlohmann::ordered_json manifest = make_manifest(described);
+  nlohmann::ordered_json manifest = make_manifest(described);
+  if (taps) describe_taps(*taps, manifest);
   const std::filesystem::path folder = command.output;
   std::vector<OutputFile> others{{folder / "sh.json", bytes_of(sh_text(set, environment, taken))},
                                  {folder / "preview.png", encode_png(make_preview(set, taken.list()))}};
+  if (taps) others.push_back({folder / "stretched_taps.glsl", bytes_of(stretched_taps_glsl(*taps))});
   if (!command.lights.residual.empty())
     others.push_back({command.lights.residual, encode_flat(command.lights.residual, radiance)});
   write_set(command.output, files, manifest, environment.source, std::move(others));
@@ -331,6 +350,9 @@ void add_ibl_command(CLI::App& app) {
   sub->add_flag("--dfg-multiple-scattering", command->multiple_scattering,
                 "Put the light that scatters between facets into the DFG table; without it, shaders add it "
                 "(see docs/ibl.md)");
+  sub->add_flag("--stretched-taps", command->stretched_taps,
+                "Write stretched_taps and its shader: three look-ups of specular in place of one, a third "
+                "of the split sum's error or less (see docs/reflection.md)");
   sub->add_option("--format", command->format, "Of the cubes")
       ->check(CLI::IsMember({"rgba16f", "rgba32f", "rgb9e5"}))
       ->capture_default_str();

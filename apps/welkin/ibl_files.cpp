@@ -69,32 +69,46 @@ void add_cube(const Content& content, const CubeMips& cube, const IblFileOptions
   files.push_back(std::move(file));
 }
 
-Image dfg_image(const DfgTable& table, int channels) {
-  Image image(table.size, table.size, channels);
-  for (std::size_t i = 0; i < table.scale_bias.size(); ++i)
-    image.pixels[i / 2 * channels + i % 2] = table.scale_bias[i];
-  return image;
-}
-
-void add_dfg(const DfgTable& table, const IblFileOptions& options, std::vector<IblFile>& files) {
+// A flat table of two channels; exr has a third, zero.
+void add_table(const Content& content, const Image& table, const IblFileOptions& options,
+               std::vector<IblFile>& files) {
   const bool wide = options.format == PixelFormat::rgba32f;
   const PixelFormat format = wide ? PixelFormat::rg32f : PixelFormat::rg16f;
-  const Content content{
-      "dfg", "split-sum scale (R) and bias (G): reflectance = F0 * R + G; x = n.v, y = perceptual_roughness",
-      "1"};
   IblFile file = describe_file(content, "", options, format);
   switch (options.container) {
     case Container::ktx2:
-      take(file, encode_ktx2(dfg_image(table, 2), {format, RangePolicy::clip, 0, options.zstd_level, {}}));
+      take(file, encode_ktx2(table, {format, RangePolicy::clip, 0, options.zstd_level, {}}));
       break;
-    case Container::dds: take(file, encode_dds(dfg_image(table, 2), {format, RangePolicy::clip, 0})); break;
-    case Container::exr:
-      file.bytes =
-          encode_exr(dfg_image(table, 3), {wide ? ExrPixelType::single_float : ExrPixelType::half_float, 1});
+    case Container::dds: take(file, encode_dds(table, {format, RangePolicy::clip, 0})); break;
+    case Container::exr: {
+      Image rgb(table.width, table.height);
+      for (std::size_t i = 0; i < table.pixels.size(); ++i) rgb.pixels[i / 2 * 3 + i % 2] = table.pixels[i];
+      file.bytes = encode_exr(rgb, {wide ? ExrPixelType::single_float : ExrPixelType::half_float, 1});
       break;
+    }
   }
-  file.size = table.size;
+  file.size = table.width;
   files.push_back(std::move(file));
+}
+
+void add_dfg(const DfgTable& table, const IblFileOptions& options, std::vector<IblFile>& files) {
+  Image image(table.size, table.size, 2);
+  image.pixels = table.scale_bias;
+  add_table(
+      {"dfg", "split-sum scale (R) and bias (G): reflectance = F0 * R + G; x = n.v, y = perceptual_roughness",
+       "1"},
+      image, options, files);
+}
+
+void add_stretched_taps(const StretchedTapsTable& table, const IblFileOptions& options,
+                        std::vector<IblFile>& files) {
+  add_table(
+      {"stretched_taps",
+       fmt::format("{} look-ups of specular: per look-up {} rows of offset (R) and perceptual_roughness "
+                   "(G), then {} of scale (R) and bias (G); x = sqrt(n.v), y = perceptual_roughness",
+                   table.taps, table.roughness_size, table.roughness_size),
+       "1"},
+      stretched_taps_image(table), options, files);
 }
 
 }  // namespace
@@ -130,6 +144,7 @@ std::vector<IblFile> encode_ibl_files(const IblSet& set, const IblFileOptions& o
             irradiance_unit},
            CubeMips{{set.irradiance}}, options, files);
   add_dfg(set.dfg, options, files);
+  if (options.taps) add_stretched_taps(*options.taps, options, files);
   return files;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <welkin/envmap/ibl.h>
+#include <welkin/envmap/reflection/stretched_taps.h>
 #include <welkin/image/packed_formats.h>
 #include <welkin/image/range_fit.h>
 
@@ -22,6 +23,7 @@ struct IblFileOptions {
   RangePolicy range = RangePolicy::scale;
   int zstd_level = 0;  ///< ktx2 only
   LevelLaw law = LevelLaw::linear;
+  const StretchedTapsTable* taps = nullptr;  ///< written too when there
 };
 
 /// One file of the set, encoded, and what the manifest says of it.
@@ -37,7 +39,7 @@ struct IblFile {
   std::vector<std::uint8_t> bytes;
 };
 
-/// environment, specular, irradiance and dfg in the container; exr has one file a level, specular_0.exr and so on, six
+/// environment, specular, irradiance, dfg, and stretched_taps if asked for, in the container; exr has one file a level, specular_0.exr and so on, six
 /// faces side by side in the order +X -X +Y -Y +Z -Z.
 std::vector<IblFile> encode_ibl_files(const IblSet& set, const IblFileOptions& options);
 

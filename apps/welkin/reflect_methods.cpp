@@ -4,8 +4,11 @@
 
 #include <memory>
 
+#include <welkin/brdf/brdf_spec.h>
+#include <welkin/envmap/reflection/fresnel_blend.h>
 #include <welkin/envmap/reflection/low_frequency.h>
 #include <welkin/envmap/reflection/shrm.h>
+#include <welkin/envmap/reflection/stretched_taps.h>
 #include <welkin/error.h>
 
 #include "reflect_lobe_methods.h"
@@ -33,6 +36,40 @@ PreparedReflection prepare_low_frequency_method(const ReflectInput& input) {
                       low->report.predicted_error)};
 }
 
+GgxParameters ggx_of(const ReflectInput& input) {
+  if (const auto parameters = parse_ggx_spec(input.brdf_spec)) return *parameters;
+  throw Error(fmt::format("needs a BRDF ggx:ALPHA[,F0], not {}", input.brdf_spec));
+}
+
+PreparedReflection prepare_split_sum_method(const ReflectInput& input) {
+  const GgxParameters ggx = ggx_of(input);
+  auto surface = std::make_shared<const SplitSum>(prepare_split_sum(input.radiance, ggx.f0, ggx.alpha));
+  return {[surface](const ReflectionQuery& query) { return reflect(*surface, query); },
+          fmt::format("{} levels of {}, 1 look-up", surface->chain.levels.levels.size(),
+                      surface->chain.levels.size())};
+}
+
+PreparedReflection prepare_stretched_method(const ReflectInput& input) {
+  const GgxParameters ggx = ggx_of(input);
+  auto surface =
+      std::make_shared<const StretchedTaps>(prepare_stretched_taps(input.radiance, ggx.f0, ggx.alpha));
+  return {[surface](const ReflectionQuery& query) { return reflect(*surface, query); },
+          fmt::format("{} levels of {}, {} look-ups, table {} x {}", surface->chain.levels.levels.size(),
+                      surface->chain.levels.size(), surface->table.taps, surface->table.cos_size,
+                      surface->table.roughness_size)};
+}
+
+PreparedReflection prepare_fresnel_blend_method(const ReflectInput& input) {
+  const auto material = parse_fresnel_blend_spec(input.brdf_spec);
+  if (!material)
+    throw Error(
+        fmt::format("needs a BRDF fresnel-blend:... or fresnel-blend-schlick:..., not {}", input.brdf_spec));
+  auto surface = std::make_shared<const FresnelBlend>(prepare_fresnel_blend(input.radiance, *material));
+  return {
+      [surface](const ReflectionQuery& query) { return reflect(*surface, query); },
+      fmt::format("irradiance of {}, Phong of {}", surface->irradiance_over_pi.size, surface->glossy.size)};
+}
+
 }  // namespace
 
 const std::vector<ReflectMethod>& reflect_methods() {
@@ -45,7 +82,11 @@ const std::vector<ReflectMethod>& reflect_methods() {
       {"lafortune", "lafortune:... alone, McAllister et al. 2002", prepare_lafortune_method},
       {"shrm", "spherical-harmonic reflection map within --error-bound, Ramamoorthi & Hanrahan 2002",
        prepare_shrm_method},
-      {"low-frequency", "light of degree 4, Kautz, Sloan & Snyder 2002", prepare_low_frequency_method}};
+      {"low-frequency", "light of degree 4, Kautz, Sloan & Snyder 2002", prepare_low_frequency_method},
+      {"split-sum", "one look-up of a prefiltered chain, Karis 2013 (ggx)", prepare_split_sum_method},
+      {"stretched", "three fitted look-ups of the same chain (ggx)", prepare_stretched_method},
+      {"fresnel-blend", "irradiance and Phong maps mixed by Fresnel (fresnel-blend)",
+       prepare_fresnel_blend_method}};
   return methods;
 }
 

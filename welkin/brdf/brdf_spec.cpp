@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <welkin/brdf/lafortune.h>
@@ -37,6 +38,8 @@ class Parameters {
     if (parts.size() != 3) refuse("a colour is one number or three (1:0.5:0.25)");
     return {parse(parts[0]), parse(parts[1]), parse(parts[2])};
   }
+
+  bool more() const { return at_ < parts_.size(); }
 
   Rgb colour_or(double grey) { return at_ < parts_.size() ? colour() : Rgb{grey, grey, grey}; }
 
@@ -78,9 +81,14 @@ IsotropicBrdf blinn_phong(Parameters& p) {
   return make_blinn_phong_brdf(exponent, p.colour_or(1));
 }
 
-IsotropicBrdf ggx(Parameters& p) {
+GgxParameters ggx_parameters(Parameters& p) {
   const double alpha = p.number();
-  return make_ggx_brdf(alpha, p.colour_or(0.04));
+  return {alpha, p.colour_or(0.04)};
+}
+
+IsotropicBrdf ggx(Parameters& p) {
+  const GgxParameters parameters = ggx_parameters(p);
+  return make_ggx_brdf(parameters.alpha, parameters.f0);
 }
 
 IsotropicBrdf ggx_dielectric(Parameters& p) {
@@ -99,12 +107,34 @@ IsotropicBrdf ward(Parameters& p) {
   return make_ward_brdf(alpha, p.colour_or(1));
 }
 
+// A conductor where k is given, else a dielectric.
+FresnelBlendMaterial fresnel_material(Parameters& p) {
+  FresnelBlendMaterial material;
+  material.exponent = p.number();
+  material.albedo = p.colour();
+  material.fresnel.eta = p.colour();
+  material.fresnel.kind = p.more() ? FresnelLaw::Kind::conductor : FresnelLaw::Kind::dielectric;
+  material.fresnel.k = p.colour_or(0);
+  return material;
+}
+
+FresnelBlendMaterial schlick_material(Parameters& p) {
+  FresnelBlendMaterial material;
+  material.exponent = p.number();
+  material.albedo = p.colour();
+  material.fresnel.f0 = p.colour();
+  return material;
+}
+
+IsotropicBrdf fresnel_blend(Parameters& p) { return make_fresnel_blend_brdf(fresnel_material(p)); }
+IsotropicBrdf fresnel_blend_schlick(Parameters& p) { return make_fresnel_blend_brdf(schlick_material(p)); }
+
 struct Model {
   std::string_view name, form;
   IsotropicBrdf (*make)(Parameters&);
 };
 
-constexpr std::array<Model, 7> models{{
+constexpr std::array<Model, 9> models{{
     {"lambert", "lambert:ALBEDO", lambert},
     {"phong", "phong:N[,SCALE]", phong},
     {"blinn-phong", "blinn-phong:N[,SCALE]", blinn_phong},
@@ -112,6 +142,8 @@ constexpr std::array<Model, 7> models{{
     {"ggx-dielectric", "ggx-dielectric:ALPHA,ETA", ggx_dielectric},
     {"ggx-conductor", "ggx-conductor:ALPHA,ETA,K", ggx_conductor},
     {"ward", "ward:ALPHA[,SPECULAR]", ward},
+    {"fresnel-blend", "fresnel-blend:N,ALBEDO,ETA[,K]", fresnel_blend},
+    {"fresnel-blend-schlick", "fresnel-blend-schlick:N,ALBEDO,F0", fresnel_blend_schlick},
 }};
 
 IsotropicBrdf read_measured(std::string_view file) {
@@ -135,6 +167,33 @@ IsotropicBrdf parse_brdf(std::string_view spec) {
     return brdf;
   }
   throw Error(fmt::format("unknown BRDF '{}'; valid are {}", spec, brdf_choices()));
+}
+
+namespace {
+
+std::string_view name_of(std::string_view spec) {
+  return spec.substr(0, std::min(spec.find(':'), spec.size()));
+}
+
+// The parameters as one model reads them, when the spec is of that model.
+template <class Read>
+auto read_as(std::string_view model, std::string_view spec, Read read)
+    -> std::optional<decltype(read(std::declval<Parameters&>()))> {
+  if (name_of(spec) != model) return {};
+  parse_brdf(spec);  // which checks it
+  Parameters parameters(spec, model, spec.substr(model.size() + 1));
+  return read(parameters);
+}
+
+}  // namespace
+
+std::optional<GgxParameters> parse_ggx_spec(std::string_view spec) {
+  return read_as("ggx", spec, ggx_parameters);
+}
+
+std::optional<FresnelBlendMaterial> parse_fresnel_blend_spec(std::string_view spec) {
+  if (auto material = read_as("fresnel-blend", spec, fresnel_material)) return material;
+  return read_as("fresnel-blend-schlick", spec, schlick_material);
 }
 
 std::string_view brdf_choices() {
