@@ -161,6 +161,15 @@ void add_merl(const SeedFolder& seeds) {
   }
 }
 
+// One block of every mode number, the reserved ones too.
+void add_bc6h(const SeedFolder& seeds) {
+  for (int mode = 0; mode < 32; ++mode) {
+    Bytes block(16, 0x5a);
+    block[0] = static_cast<std::uint8_t>(mode);
+    seeds.add_to("bc6h", std::to_string(mode), block);
+  }
+}
+
 }  // namespace
 }  // namespace welkin
 
@@ -176,5 +185,6 @@ int main(int count, char** arguments) {
   welkin::add_textures(seeds);
   welkin::add_sh(seeds);
   welkin::add_merl(seeds);
+  welkin::add_bc6h(seeds);
   return 0;
 }
