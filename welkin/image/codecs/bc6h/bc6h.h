@@ -48,7 +48,7 @@ std::size_t encode_bc6h(std::span<const float> pixels, int width, int height, in
 /// values, for samplers that do not filter across faces: the input should hold equal texels there (edge fix-up); where
 /// they differ, both become the mean. The blocks along an edge then take partitions that split off their edge, and both
 /// faces code it with the same ends and indices: exactly equal. The blocks in the corners, and every block where
-/// size is not a multiple of 4 or is below 8, cannot be split so: they are coded in turns towards each other, and
+/// size is not a multiple of 4 or is below 12, cannot be split so: they are coded in turns towards each other, and
 /// nearly equal. Returns how many values were clipped.
 std::size_t encode_bc6h_cube(const Cube& cube, float factor, const Bc6hOptions& options, bool shared_edges,
                              std::span<std::uint8_t> out);

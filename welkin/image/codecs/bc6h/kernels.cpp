@@ -9,27 +9,48 @@ namespace welkin::bc6h {
 namespace {
 
 constexpr std::array<int, 16> weights_of_8 = {0, 9, 18, 27, 37, 46, 55, 64, 64, 64, 64, 64, 64, 64, 64, 64};
+constexpr std::array<int, 16> ones = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 constexpr float out_of_reach = 3.2e7f;  // on the error scale: its square is `forbidden`
 constexpr float unit_floor = 1e-30f;    // keeps divisions by sums of weights finite
 
-WELKIN_INLINE IntLanes weight_lanes(int levels) {
-  return load(levels == 8 ? weights_of_8.data() : weights4.data());
-}
-
 // One channel of the palette on the error scale; `out_of_reach` where a magnitude exceeds limit. The interpolation is
 // first + weight (second - first) in the specification's words.
-WELKIN_INLINE Lanes palette_levels(const float* scale, int first, int second, const IntLanes& weights,
-                                   int limit, bool is_signed) {
+template <int levels>
+WELKIN_INLINE void palette_levels(const float* scale, int first, int second, int limit, bool is_signed,
+                                  float out[16]) {
+  const IntLanes weights = load(levels == 8 ? weights_of_8.data() : weights4.data());
   const IntLanes position = (weights * (second - first) + broadcast(64 * first + 32)) >> 6;
   const IntLanes half = (magnitude(position) * 31) >> (is_signed ? 5 : 6);
   int halves[16], positions[16];
-  float levels[16];
   store(half, halves), store(position, positions);
-  for (int k = 0; k < 16; ++k) {
+  for (int k = 0; k < levels; ++k) {
     const float level = halves[k] > limit ? out_of_reach : scale[halves[k]];
-    levels[k] = positions[k] < 0 ? -level : level;
+    out[k] = positions[k] < 0 ? -level : level;
   }
-  return load(levels);
+}
+
+template <int levels>
+WELKIN_INLINE float assign_among(const Targets& targets, const Lanes& member, const Ends& ends,
+                                 IntLanes& indices) {
+  float palette[3][16];
+  for (std::size_t c = 0; c < 3; ++c) {
+    palette_levels<levels>(targets.scale, ends.first[c], ends.second[c], targets.limit[c], targets.is_signed,
+                           palette[c]);
+  }
+  const Lanes red = targets.level[0], green = targets.level[1], blue = targets.level[2];
+  Lanes best = broadcast(1e30f);
+  IntLanes chosen, current;
+  const IntLanes one = load(ones.data());
+  for (int k = 0; k < levels; ++k) {
+    const Lanes r = red - palette[0][k], g = green - palette[1][k], b = blue - palette[2][k];
+    const Lanes distance = r * r + g * g + b * b;
+    const IntLanes closer = distance < best;
+    best = select(closer, distance, best);
+    chosen = select(closer, current, chosen);
+    current = current + one;
+  }
+  indices = chosen;
+  return sum(best * member * targets.importance);
 }
 
 struct Moments {
@@ -128,31 +149,14 @@ const Lanes& member_of(int partition, int subset) {
 }
 
 const Lanes& all_members() {
-  static const Lanes ones = broadcast(1.0f);
-  return ones;
+  static const Lanes all = broadcast(1.0f);
+  return all;
 }
 
 WELKIN_TARGET_CLONES float assign(const Targets& targets, const Lanes& member, const Ends& ends, int levels,
                                   IntLanes& indices) {
-  const IntLanes weights = weight_lanes(levels);
-  float palette[3][16];
-  for (std::size_t c = 0; c < 3; ++c) {
-    store(palette_levels(targets.scale, ends.first[c], ends.second[c], weights, targets.limit[c],
-                         targets.is_signed),
-          palette[c]);
-  }
-  const Lanes red = targets.level[0], green = targets.level[1], blue = targets.level[2];
-  Lanes best = broadcast(1e30f);
-  IntLanes chosen;
-  for (int k = 0; k < levels; ++k) {
-    const Lanes r = red - palette[0][k], g = green - palette[1][k], b = blue - palette[2][k];
-    const Lanes distance = r * r + g * g + b * b;
-    const IntLanes closer = distance < best;
-    best = select(closer, distance, best);
-    chosen = select(closer, broadcast(k), chosen);
-  }
-  indices = chosen;
-  return sum(best * member * targets.importance);
+  return levels == 8 ? assign_among<8>(targets, member, ends, indices)
+                     : assign_among<16>(targets, member, ends, indices);
 }
 
 WELKIN_TARGET_CLONES Line principal_line(const Targets& targets, const Lanes& member) {
@@ -252,8 +256,13 @@ IndexStatistics index_statistics(const Lanes& level, const Lanes& member, const 
 
 WELKIN_TARGET_CLONES float channel_cost(const IndexStatistics& statistics, int first, int second, int levels,
                                         int limit, bool is_signed) {
-  const Lanes palette = palette_levels(error_scale(), first, second, weight_lanes(levels), limit, is_signed);
-  const Lanes d = palette - statistics.mean;
+  float palette[16] = {};
+  if (levels == 8) {
+    palette_levels<8>(error_scale(), first, second, limit, is_signed, palette);
+  } else {
+    palette_levels<16>(error_scale(), first, second, limit, is_signed, palette);
+  }
+  const Lanes d = load(palette) - statistics.mean;
   return sum(statistics.count * d * d);
 }
 

@@ -38,7 +38,7 @@ int quantise(float position, int bits, int most, bool is_signed) {
     const auto end = static_cast<float>(position_limit(is_signed));
     if (magnitude >= 0.75f * cell) {  // 0 is at 0, 1 at 1.5 cells
       code = std::max(1, static_cast<int>(std::min(magnitude, end) / cell));
-      if (code >= last && magnitude < end - 0.75f * cell) code = last - 1;
+      if (code >= last && magnitude <= end - 0.75f * cell) code = last - 1;
     }
     code = std::min(code, last);
   }
