@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <ctime>
 #include <random>
 
 #include "measure.h"
@@ -6,6 +7,7 @@
 #include <welkin/envmap/brute_force.h>
 #include <welkin/envmap/environment.h>
 #include <welkin/envmap/filter.h>
+#include <welkin/envmap/ibl.h>
 #include <welkin/envmap/level_law.h>
 #include <welkin/envmap/statistics.h>
 #include <welkin/error.h>
@@ -124,6 +126,28 @@ void bench_map(bench::Report& report, const std::string& source, int texels_a_le
                 fmt::format("brute force {:.4g} s, {:.0f} times", brute, brute / all.best));
 }
 
+// What `welkin ibl` computes from a map, without files: the environment cube and all filtered levels with irradiance.
+// Processor seconds of all threads together, which other programs on the machine do not add to, stand beside.
+void bench_set(bench::Report& report, const std::string& source) {
+  const Image map = load_environment(source).radiance;
+  IblOptions options;
+  options.size = size;
+  const auto processor = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  std::vector<double> seconds;
+  IblSet set;
+  const bench::Timing wall = bench::measure(runs, [&] {
+    const double start = processor();
+    set = make_ibl(map, options);
+    seconds.push_back(processor() - start);
+  });
+  report.note(
+      fmt::format("-- {}: the set of {} (make_ibl, irradiance, coefficients and DFG included): {:.0f} ms "
+                  "best, processor {:.0f} ms; "
+                  "cube and its mips {:.0f} ms, analysis {:.0f} ms",
+                  source, size, 1000 * wall.best, 1000 * bench::timing_of(seconds).best,
+                  1000 * set.seconds_environment, 1000 * set.filter.analysis_seconds));
+}
+
 void bench_threads(bench::Report& report) {
   const Image map = load_environment("sky:day,size=1024x512").radiance;
   const std::vector<FilterTarget> targets = ggx_targets();
@@ -150,6 +174,7 @@ int main(int argc, char** argv) try {
   for (const char* sky : {"sky:day,size=1024x512", "sky:studio,size=1024x512"}) bench_map(report, sky, 48);
   for (int i = 1; i < argc; ++i) bench_map(report, argv[i], 48);
   bench_map(report, "sky:day,size=4096x2048", 12);
+  for (const char* sky : {"sky:day,size=1024x512", "sky:day,size=4096x2048"}) bench_set(report, sky);
   bench_threads(report);
   return report.exit_code();
 } catch (const welkin::Error& error) {

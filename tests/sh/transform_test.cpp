@@ -71,6 +71,19 @@ TEST(Analysis, EqualsTheDefinition) {
   }
 }
 
+// Rows in both hemispheres and on the equator of an odd height.
+TEST(Analysis, OfReplacedTexelsIsThatOfAMapThatHasThem) {
+  for (int height : {7, 20, 40}) {
+    Image map = random_map(2 * height, height, 3);
+    AnalysisOptions options;
+    options.max_degree = 15;
+    for (int y : {0, height / 2, height - 3}) options.replaced.push_back({y + 1, y, {5, 6, 7}});
+    const Spectrum replaced = analyze(map, options);
+    for (const auto& texel : options.replaced) std::copy_n(texel.value.begin(), 3, map.at(texel.x, texel.y));
+    EXPECT_EQ(replaced.values, analyze(map, {.max_degree = 15}).values) << height;
+  }
+}
+
 TEST(Analysis, OfAConstantHasDegreeZeroOnly) {
   Image map(64, 33);
   std::fill(map.pixels.begin(), map.pixels.end(), 3.0f);

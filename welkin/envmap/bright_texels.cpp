@@ -51,7 +51,7 @@ std::vector<Candidate> texels_above(const Image& map, double threshold) {
 BrightSplit split_bright_texels(const Image& equirect, const BrightOptions& options) {
   assert(equirect.channels == 3);
   BrightSplit split;
-  split.residual = equirect;
+  split.map = &equirect;
   split.mean = integrate_luminance(equirect, [](double l) { return l; }) / (4 * std::numbers::pi);
   split.threshold = options.threshold_over_mean * split.mean;
   std::vector<Candidate> bright = texels_above(equirect, split.threshold);
@@ -75,16 +75,20 @@ BrightSplit split_bright_texels(const Image& equirect, const BrightOptions& opti
                       equirect_patch(equirect.width, equirect.height, c.x, c.y),
                       {}};
     texel.direction = equirect_direction({(c.x + 0.5) / equirect.width, (c.y + 0.5) / equirect.height});
-    float* rest = split.residual.at(c.x, c.y);
+    const float* value = equirect.at(c.x, c.y);
     for (int i = 0; i < 3; ++i) {
-      const double whole = rest[i];
-      rest[i] = static_cast<float>(whole * (split.threshold / c.luminance));
-      texel.radiance[i] = whole - static_cast<double>(rest[i]);
+      const double whole = value[i];
+      texel.rest[i] = static_cast<float>(whole * (split.threshold / c.luminance));
+      texel.radiance[i] = whole - static_cast<double>(texel.rest[i]);
     }
     split.texels.push_back(texel);
   }
-  split.busy_flux =
-      integrate_luminance(split.residual, [&](double l) { return std::max(0.0, l - 4 * split.mean); });
+  const auto busy = [&](double l) { return std::max(0.0, l - 4 * split.mean); };
+  split.busy_flux = integrate_luminance(equirect, busy);
+  for (const BrightTexel& t : split.texels)
+    split.busy_flux -=
+        t.solid_angle * (busy(luminance(equirect.at(t.x, t.y))) - busy(luminance(t.rest.data())));
+  split.busy_flux = std::max(0.0, split.busy_flux);
   return split;
 }
 

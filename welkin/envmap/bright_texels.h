@@ -14,15 +14,17 @@ struct BrightTexel {
   double solid_angle = 0;  ///< sr
   SpherePatch patch;
   std::array<double, 3> radiance{};  ///< the excess
+  std::array<float, 3> rest{};       ///< what stays in the map
 };
 
-/// A map split in two: map = residual + texels.
+/// A map split in two: the map with the rest of each bright texel in its place, and their excess. Large maps are not
+/// copied for it.
 struct BrightSplit {
-  Image residual;
-  std::vector<BrightTexel> texels;
-  double threshold = 0;  ///< luminance above which a texel is split
-  double mean = 0;       ///< mean luminance of the whole map over the sphere
-  double busy_flux = 0;  ///< integral of the residual's luminance above 4 * mean, over the sphere
+  const Image* map = nullptr;       ///< the whole one, someone else's
+  std::vector<BrightTexel> texels;  ///< by rows, from left to right
+  double threshold = 0;             ///< luminance above which a texel is split
+  double mean = 0;                  ///< mean luminance of the whole map over the sphere
+  double busy_flux = 0;             ///< integral of the residual's luminance above 4 * mean, over the sphere
 };
 
 struct BrightOptions {
@@ -31,7 +33,8 @@ struct BrightOptions {
 };
 
 /// Finds the sun and the lamps. The excess of a texel keeps its colour: all channels are cut by the same factor, so
-/// that luminance (Rec. 709) comes down to the threshold. equirect has 3 channels, finite and >= 0.
+/// that luminance (Rec. 709) comes down to the threshold. equirect has 3 channels, finite and >= 0, and must outlive the
+/// split.
 BrightSplit split_bright_texels(const Image& equirect, const BrightOptions& options = {});
 
 }  // namespace welkin

@@ -41,8 +41,7 @@ Cube gather(const FilterTarget& target, const KernelPlan& plan, const SphereGrid
         interpolate(grid, direction, smooth);
         double rgb[3] = {smooth[0], smooth[1], smooth[2]};
         bright.add(direction, target.scale, rgb);
-        if (plan.near_angle > 0)
-          add_core(map.residual, target.kernel, plan.near_angle, direction, target.scale, rgb);
+        if (plan.near_angle > 0) add_core(map, target.kernel, plan.near_angle, direction, target.scale, rgb);
         // The exact result is not negative; the error of the band limit may be.
         for (int c = 0; c < 3; ++c) cube.at(face, x, y)[c] = static_cast<float>(std::max(0.0, rgb[c]));
       }
@@ -94,7 +93,9 @@ std::vector<Cube> filter_environment(const Image& radiance, std::span<const Filt
   analysis.max_degree = 1;
   for (const KernelPlan& kernel : plan.kernels)
     analysis.max_degree = std::max(analysis.max_degree, static_cast<int>(kernel.factors.size()) - 1);
-  const Spectrum spectrum = analyze(plan.map.residual, analysis);
+  for (const BrightTexel& t : plan.map.texels)
+    analysis.replaced.push_back({t.x, t.y, {t.rest[0], t.rest[1], t.rest[2], 0}});
+  const Spectrum spectrum = analyze(radiance, analysis);
   const std::vector<double> power = degree_power(spectrum);
   FilterReport made{
       analysis.max_degree, static_cast<int>(plan.map.texels.size()), analysis_time.seconds(), {}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <welkin/parallel/target_clones.h>
 #include <welkin/sphere/equirect.h>
@@ -24,6 +25,15 @@ WELKIN_TARGET_CLONES void one_minus_cosines(const double* x, const double* y, co
 double half_side(const SpherePatch& patch) {
   const double theta = 0.5 * (patch.theta0 + patch.theta1);
   return std::max(0.5 * (patch.theta1 - patch.theta0), 0.5 * (patch.phi1 - patch.phi0) * std::sin(theta));
+}
+
+// First and end of the bright texels in a row of the map.
+std::pair<const BrightTexel*, const BrightTexel*> bright_of_row(const std::vector<BrightTexel>& texels,
+                                                                int row) {
+  const auto first = std::lower_bound(texels.begin(), texels.end(), row,
+                                      [](const BrightTexel& t, int y) { return t.y < y; });
+  const auto end = std::find_if(first, texels.end(), [row](const BrightTexel& t) { return t.y != row; });
+  return {texels.data() + (first - texels.begin()), texels.data() + (end - texels.begin())};
 }
 
 }  // namespace
@@ -69,8 +79,9 @@ void BrightSum::add(Vec3 direction, double scale, double* rgb) {
   }
 }
 
-void add_core(const Image& map, const ZonalKernel& kernel, double near_angle, Vec3 direction, double scale,
-              double* rgb) {
+void add_core(const BrightSplit& split, const ZonalKernel& kernel, double near_angle, Vec3 direction,
+              double scale, double* rgb) {
+  const Image& map = *split.map;
   const Uv uv = equirect_uv(direction);
   const double theta = pi * uv.v;
   const int first_row = std::max(0, static_cast<int>(std::floor((theta - near_angle) / pi * map.height)));
@@ -85,12 +96,16 @@ void add_core(const Image& map, const ZonalKernel& kernel, double near_angle, Ve
     const int middle = static_cast<int>(uv.u * map.width);
     const int columns = std::min(map.width / 2, static_cast<int>(std::ceil(dphi / (2 * pi) * map.width)) + 1);
     const int first = middle - columns, last = std::min(middle + columns, first + map.width - 1);
+    const auto [bright, bright_end] = bright_of_row(split.texels, row);
     for (int x = first; x <= last; ++x) {
       const int column = (x % map.width + map.width) % map.width;
       const double weight =
           scale *
           integrate_kernel(kernel, direction, equirect_patch(map.width, map.height, column, row), near_angle);
-      for (int c = 0; c < 3; ++c) rgb[c] += weight * static_cast<double>(map.at(column, row)[c]);
+      const float* value = map.at(column, row);
+      for (const BrightTexel* t = bright; t != bright_end; ++t)
+        if (t->x == column) value = t->rest.data();
+      for (int c = 0; c < 3; ++c) rgb[c] += weight * static_cast<double>(value[c]);
     }
   }
 }

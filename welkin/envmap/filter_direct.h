@@ -28,8 +28,8 @@ class BrightSum {
   std::vector<double> one_minus_cos_, value_;
 };
 
-/// Adds scale * sum over the texels of `map` of radiance * integral of the kernel's core (within near_angle) to rgb[3].
-void add_core(const Image& map, const ZonalKernel& kernel, double near_angle, Vec3 direction, double scale,
-              double* rgb);
+/// Adds scale * sum over the texels of the map, without the excess of bright ones, of radiance * integral of the kernel's core (within near_angle) to rgb[3].
+void add_core(const BrightSplit& split, const ZonalKernel& kernel, double near_angle, Vec3 direction,
+              double scale, double* rgb);
 
 }  // namespace welkin

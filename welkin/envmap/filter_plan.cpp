@@ -73,7 +73,7 @@ double core_cost(const FilterTarget& target, double near_angle, int map_rows) {
 }  // namespace
 
 KernelPlan plan_kernel(const FilterTarget& target, const BrightSplit& map, double tolerance) {
-  const int rows = map.residual.height;
+  const int rows = map.map->height;
   KernelPlan best = factors_within([&](int degree) { return legendre_coefficients(target.kernel, degree); },
                                    map, tolerance);
   double cost = best.bound_met ? transform_cost(static_cast<int>(best.factors.size()), rows) : INFINITY;

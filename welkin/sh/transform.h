@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include <welkin/image/image.h>
@@ -14,6 +15,13 @@ namespace welkin {
 struct AnalysisOptions {
   /// The largest degree wanted, >= 0. May exceed what the map resolves: a map of patches has content at all degrees.
   int max_degree = 255;
+
+  /// Texels that count as if they had another value, so that nobody needs a copy of a large map to change a few.
+  struct Replaced {
+    int x = 0, y = 0;
+    std::array<float, 4> value{};  ///< one a channel
+  };
+  std::vector<Replaced> replaced{};
 };
 
 /// The spectrum of an equirectangular map: a_lm = integral of f conj(Y_lm). Each texel is a patch on which f is

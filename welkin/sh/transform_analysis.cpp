@@ -64,7 +64,18 @@ WELKIN_TARGET_CLONES void split_pairs(const double* __restrict z, const double* 
   }
 }
 
-RowOrders transform_rows(const Image& map, int max_degree) {
+void replace_texels(const std::vector<AnalysisOptions::Replaced>& replaced, int height, int first_pair,
+                    int channel, BatchFft& fft) {
+  for (const AnalysisOptions::Replaced& texel : replaced)
+    for (const bool south : {false, true}) {
+      const int lane = (south ? height - 1 - texel.y : texel.y) - first_pair;
+      if (lane < 0 || lane >= lanes || 2 * (first_pair + lane) >= height + height % 2) continue;
+      fft.at(texel.x)[lane + (south ? lanes : 0)] = static_cast<double>(texel.value[channel]);
+    }
+}
+
+RowOrders transform_rows(const Image& map, const AnalysisOptions& options) {
+  const int max_degree = options.max_degree;
   RowOrders rows(map.height, map.channels, max_degree);
   const std::vector<Complex> factors = column_factors(map.width, max_degree);
   const BatchFft prepared(map.width);
@@ -73,6 +84,7 @@ RowOrders transform_rows(const Image& map, int max_degree) {
     for (int block = static_cast<int>(begin); block < static_cast<int>(end); ++block)
       for (int c = 0; c < map.channels; ++c) {
         load_pairs(map, block * lanes, rows.pairs, c, fft);
+        replace_texels(options.replaced, map.height, block * lanes, c, fft);
         fft.transform();
         for (int m = 0; m <= max_degree; ++m) {
           const int k = m % map.width;
@@ -141,8 +153,7 @@ Spectrum analyze(const Image& equirect, const AnalysisOptions& options) {
   assert(!equirect.empty() && options.max_degree >= 0);
   assert(equirect.channels == 1 || equirect.channels == 3 || equirect.channels == 4);
   const legendre::RowPairs grid(smooth_row_count(options.max_degree + 1));
-  const legendre::OrderData data =
-      resample_rows(transform_rows(equirect, options.max_degree), options.max_degree, grid);
+  const legendre::OrderData data = resample_rows(transform_rows(equirect, options), options.max_degree, grid);
   Spectrum spectrum(options.max_degree, equirect.channels);
   parallel_for(options.max_degree + 1, 2, [&](std::size_t begin, std::size_t end) {
     for (int m = static_cast<int>(begin); m < static_cast<int>(end); ++m)

@@ -28,7 +28,7 @@ struct Order {
 
 constexpr int scale_bits = 800;
 constexpr double negligible = 1e-55;  // of values that reach about 1: sixteen degrees later still below 1e-25
-constexpr int max_parts = 8, most_block_rows = 64;
+constexpr int max_parts = 8, most_block_rows = 128;
 
 }  // namespace welkin::legendre
 #endif
@@ -56,7 +56,7 @@ constexpr int tile = 2;
 // values[step * rows + row].
 class Block {
  public:
-  Block(const Order& order, int first, int rows) : order_(order), rows_(rows) {
+  Block(const Order& order, int first, int rows) : order_(order), rows_(rows), awake_(rows) {
     std::memcpy(x2_, &order.x2[first], sizeof(double) * rows);
     std::memcpy(now_, &order.start[first], sizeof(double) * rows);
     std::memcpy(scale_, &order.scale[first], sizeof(double) * rows);
@@ -66,30 +66,28 @@ class Block {
   int rows() const { return rows_; }
   const double* values() const { return values_; }
 
-  // Fills the table for steps s .. s + chunk - 1; false as long as all values are negligible.
-  HWY_INLINE bool advance(int s) {
-    if (!matters_) matters_ = any_matters();
+  // Fills the table for steps s .. s + chunk - 1 and returns the first row at which they matter: those before it, nearer
+  // to the pole, are negligible.
+  HWY_INLINE int advance(int s) {
     const D d;
-    for (int row = 0; row < rows_; row += static_cast<int>(hn::Lanes(d))) {
+    const int n = static_cast<int>(hn::Lanes(d));
+    while (awake_ > 0 && matters(awake_ - n)) awake_ -= n;
+    for (int row = 0; row < rows_; row += n) {
       const M visible = hn::Eq(hn::Load(d, scale_ + row), hn::Zero(d));
       if (hn::AllTrue(d, visible))
         step_rows(s, row);
       else
         step_scaled_rows(s, row, visible);
     }
-    return matters_;
+    return awake_;
   }
 
  private:
-  HWY_INLINE bool any_matters() const {
+  HWY_INLINE bool matters(int row) const {
     const D d;
-    const V threshold = hn::Set(d, negligible);
-    for (int row = 0; row < rows_; row += static_cast<int>(hn::Lanes(d))) {
-      const M large = hn::Gt(hn::Abs(hn::Load(d, now_ + row)), threshold);
-      const M visible = hn::Eq(hn::Load(d, scale_ + row), hn::Zero(d));
-      if (!hn::AllFalse(d, hn::And(large, visible))) return true;
-    }
-    return false;
+    const M large = hn::Gt(hn::Abs(hn::Load(d, now_ + row)), hn::Set(d, negligible));
+    const M visible = hn::Eq(hn::Load(d, scale_ + row), hn::Zero(d));
+    return !hn::AllFalse(d, hn::And(large, visible));
   }
 
   HWY_INLINE void step_rows(int s, int row) {
@@ -129,19 +127,19 @@ class Block {
 
   const Order& order_;
   int rows_;
-  bool matters_ = false;
+  int awake_;
   HWY_ALIGN double x2_[most_block_rows], before_[most_block_rows], now_[most_block_rows],
       scale_[most_block_rows];
   HWY_ALIGN double values_[chunk * most_block_rows];
 };
 
-HWY_INLINE int block_rows() { return std::min(most_block_rows, 8 * static_cast<int>(hn::Lanes(D()))); }
+HWY_INLINE int block_rows() { return std::min(most_block_rows, 16 * static_cast<int>(hn::Lanes(D()))); }
 
 // sums[(step * Parts + part) * lanes] += p_step(row) data(part, row) over the rows of the block, lane by lane, for
 // `Steps` steps.
 template <int Steps, int Parts>
-HWY_INLINE void add_products(const double* values, const double* data, std::size_t stride, int rows,
-                             double* sums) {
+HWY_INLINE void add_products(const double* values, int values_stride, const double* data, std::size_t stride,
+                             int rows, double* sums) {
   const D d;
   const int n = static_cast<int>(hn::Lanes(d));
   V sum[Steps][Parts];
@@ -153,7 +151,7 @@ HWY_INLINE void add_products(const double* values, const double* data, std::size
   for (int row = 0; row < rows; row += n) {
     V value[Steps];
     HWY_UNROLL(8)
-    for (int k = 0; k < Steps; ++k) value[k] = hn::Load(d, values + k * rows + row);
+    for (int k = 0; k < Steps; ++k) value[k] = hn::Load(d, values + k * values_stride + row);
     HWY_UNROLL(8)
     for (int part = 0; part < Parts; ++part) {
       const V datum = hn::Load(d, data + part * stride + row);
@@ -181,13 +179,14 @@ HWY_INLINE std::size_t analyze_rows(const Order& order, const double* data, doub
   for (int first = order.first_row; first < order.padded; first += block_rows()) {
     Block block(order, first, std::min(block_rows(), order.padded - first));
     for (int s = 0; s < order.padded_steps; s += chunk) {
-      const bool matters = block.advance(s);
-      done += static_cast<std::size_t>(block.rows() * chunk * (matters ? 2 + 2 * Parts : 2));
-      if (!matters) continue;
+      const int awake = block.advance(s), used = block.rows() - awake;
+      done += static_cast<std::size_t>(chunk * (2 * block.rows() + 2 * Parts * used));
+      if (used == 0) continue;
       for (int parity = 0; parity < 2; ++parity) {
         for (int k = 0; k < chunk; k += steps_at_once)
           add_products<steps_at_once, Parts>(
-              block.values() + k * block.rows(), data + parity * Parts * stride + first, stride, block.rows(),
+              block.values() + k * block.rows() + awake, block.rows(),
+              data + parity * Parts * stride + first + awake, stride, used,
               sums + static_cast<std::size_t>(parity * order.padded_steps + s + k) * Parts * n);
       }
     }
@@ -238,13 +237,13 @@ HWY_INLINE std::size_t synthesize_rows(const Order& order, const double* coeffic
   for (int first = order.first_row; first < order.padded; first += block_rows()) {
     Block block(order, first, std::min(block_rows(), order.padded - first));
     for (int s = 0; s < order.padded_steps; s += chunk) {
-      const bool matters = block.advance(s);
-      done += static_cast<std::size_t>(block.rows() * chunk * (matters ? 2 + 2 * Parts : 2));
-      if (!matters) continue;
+      const int awake = block.advance(s), used = block.rows() - awake;
+      done += static_cast<std::size_t>(chunk * (2 * block.rows() + 2 * Parts * used));
+      if (used == 0) continue;
       for (int parity = 0; parity < 2; ++parity) {
         const double* from = coefficients + static_cast<std::size_t>(parity * order.padded_steps + s) * Parts;
         double* to = data + parity * Parts * stride + first;
-        int row = 0;
+        int row = awake;
         for (; row + vectors_at_once * n <= block.rows(); row += vectors_at_once * n)
           add_steps<vectors_at_once, Parts>(block.values() + row, block.rows(), from, to + row, stride);
         for (; row < block.rows(); row += n)
@@ -319,7 +318,7 @@ void set_rows(Order& order, const RowPairs& rows, int max_degree) {
   const double log_factor = log_start(order.m), reach = std::max(100.0, 0.01 * max_degree);
   order.first_row = rows.padded;
   for (int row = rows.pairs - 1; row >= 0; --row) {
-    if (order.m > max_degree * std::exp(rows.log_sin_theta[row]) + reach) break;
+    if (order.m > max_degree * rows.sin_theta[row] + reach) break;
     order.first_row = row / RowPairs::row_padding * RowPairs::row_padding;
     order.x2[row] = rows.cos_theta[row] * rows.cos_theta[row];
     double log_value = log_factor + order.m * rows.log_sin_theta[row];
@@ -346,11 +345,13 @@ RowPairs::RowPairs(int rows)
     : pairs(rows / 2), padded((pairs + row_padding - 1) / row_padding * row_padding) {
   assert(rows >= 2 && rows % 2 == 0);
   cos_theta.assign(padded, 0.0);
+  sin_theta.assign(padded, 0.0);
   log_sin_theta.assign(padded, 0.0);
   for (int row = 0; row < pairs; ++row) {
     const double theta = std::numbers::pi * (row + 0.5) / rows;
     cos_theta[row] = std::cos(theta);
-    log_sin_theta[row] = std::log(std::sin(theta));
+    sin_theta[row] = std::sin(theta);
+    log_sin_theta[row] = std::log(sin_theta[row]);
   }
 }
 

@@ -32,7 +32,7 @@ namespace welkin::legendre {
 struct RowPairs {
   static constexpr int row_padding = 8;
   int pairs = 0, padded = 0;
-  std::vector<double> cos_theta, log_sin_theta;
+  std::vector<double> cos_theta, sin_theta, log_sin_theta;
 
   /// theta = pi (row + 1/2) / rows; rows is even.
   explicit RowPairs(int rows);
@@ -55,7 +55,7 @@ struct OrderData {
 };
 
 /// coefficients[(l - m) * parts + part], l = m .. max_degree, = sum over all row pairs of P_lm (E or O). parts is 2, 6
-/// or 8. Returns the multiply-adds done, those of padding and of rows that turned out negligible included.
+/// or 8. Returns the multiply-adds done, padding included.
 std::size_t analyze_order(int m, const RowPairs& rows, const OrderData& data, double* coefficients);
 
 /// The other way: at(m, parity, .) = sum over l of the parity of P_lm(row) coefficients[(l - m) * parts + part], times
