@@ -71,7 +71,9 @@ class Block {
   HWY_INLINE int advance(int s) {
     const D d;
     const int n = static_cast<int>(hn::Lanes(d));
-    while (awake_ > 0 && matters(awake_ - n)) awake_ -= n;
+    int first = 0;  // not from awake_ upwards: the last rows of all may be padding
+    while (first < awake_ && !matters(first)) first += n;
+    awake_ = first;
     for (int row = 0; row < rows_; row += n) {
       const M visible = hn::Eq(hn::Load(d, scale_ + row), hn::Zero(d));
       if (hn::AllTrue(d, visible))
