@@ -8,6 +8,7 @@ namespace welkin {
 
 void add_compare_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
+void add_filter_command(CLI::App& app);
 void add_ibl_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_reflect_command(CLI::App& app);

@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
       ->trigger_on_parse()
       ->each([](const std::string& value) { welkin::set_thread_count(std::stoi(value)); });
   welkin::add_ibl_command(app);
+  welkin::add_filter_command(app);
   welkin::add_info_command(app);
   welkin::add_convert_command(app);
   welkin::add_compare_command(app);

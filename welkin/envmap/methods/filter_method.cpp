@@ -29,9 +29,12 @@ using O = FilterMethodOptions;
 
 constexpr Entry entries[] = {
     {M::brute, "brute", call<filter_brute, &O::brute>},
+    {M::hierarchical, "hierarchical", call<filter_hierarchical, &O::hierarchical>},
+    {M::angular, "angular", call<filter_angular, &O::angular>},
     {M::bordered, "bordered", call<filter_bordered, &O::bordered>},
     {M::box, "box", call<filter_box, &O::box>},
     {M::paraboloid, "paraboloid", call<filter_paraboloid, &O::paraboloid>},
+    {M::importance, "importance", call<filter_importance, &O::importance>},
     {M::quick, "quick", call<filter_quick, &O::quick>},
     {M::frequency, "frequency", call<filter_frequency, &O::frequency>},
 };

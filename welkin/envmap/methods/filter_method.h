@@ -4,10 +4,13 @@
 #include <vector>
 
 #include <welkin/envmap/filter.h>
+#include <welkin/envmap/methods/angular.h>
 #include <welkin/envmap/methods/bordered.h>
 #include <welkin/envmap/methods/box.h>
 #include <welkin/envmap/methods/brute.h>
 #include <welkin/envmap/methods/frequency.h>
+#include <welkin/envmap/methods/hierarchical.h>
+#include <welkin/envmap/methods/importance.h>
 #include <welkin/envmap/methods/paraboloid.h>
 #include <welkin/envmap/methods/quick.h>
 
@@ -40,9 +43,12 @@ FilterMethod parse_filter_method(std::string_view name);
 /// Each method reads its own part.
 struct FilterMethodOptions {
   BruteOptions brute{};
+  HierarchicalOptions hierarchical{};
+  AngularOptions angular{};
   BorderedOptions bordered{};
   BoxOptions box{};
   ParaboloidOptions paraboloid{};
+  ImportanceOptions importance{};
   QuickOptions quick{};
   FrequencyOptions frequency{};
 };

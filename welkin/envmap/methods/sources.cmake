@@ -1,12 +1,17 @@
 # The filters of the literature under their names; paths are relative to welkin/envmap.
 set(WELKIN_METHOD_SOURCES
+  methods/angular.cpp
   methods/bordered.cpp
   methods/box.cpp
   methods/brute.cpp
   methods/cube_texels.cpp
   methods/filter_method.cpp
+  methods/filter_truth.cpp
   methods/frequency.cpp
+  methods/hierarchical.cpp
+  methods/importance.cpp
   methods/kernel_quantiles.cpp
+  methods/map_pyramid.cpp
   methods/paraboloid.cpp
   methods/planar_filter.cpp
   methods/quick.cpp
