@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "beside.h"
 #include "commands.h"
 #include "cube_file.h"
 #include "environment_options.h"
@@ -12,8 +13,10 @@
 #include "method_options.h"
 #include "progress.h"
 
+#include <welkin/envmap/kernel_spec.h>
 #include <welkin/envmap/methods/filter_truth.h>
 #include <welkin/error.h>
+#include <welkin/image/output_file.h>
 
 // welkin filter: one filtered cube by any method, and the table of all methods.
 
@@ -22,7 +25,7 @@ namespace {
 
 struct FilterCommand {
   EnvironmentInput in;
-  std::string kernel = "ggx:0.25", method = "frequency", output;
+  std::string kernel = "ggx:0.25", method = "frequency", output, beside;
   int size = 128, texels = 64;
   double scale = 1;
   bool verify = false;
@@ -34,13 +37,17 @@ bool compares_all(const FilterCommand& command) { return command.method == "all"
 
 // Before any work: what says nothing together.
 void check(const FilterCommand& command, const CLI::App& sub) {
-  if (compares_all(command) && !command.output.empty())
-    throw CLI::ValidationError("--method all", "compares and writes nothing: leave out -o");
-  if (!compares_all(command) && !command.verify && command.output.empty())
+  const bool writes = !command.output.empty() || !command.beside.empty();
+  if (compares_all(command) && writes)
+    throw CLI::ValidationError("--method all", "compares and writes nothing: leave out -o and --beside");
+  if (!compares_all(command) && !command.verify && !writes)
     throw CLI::ValidationError("-o", "name a file to write, or ask for --verify");
+  if (!command.beside.empty() && extension_of(command.beside) != ".png")
+    throw CLI::ValidationError("--beside", command.beside + " is not a .png");
   std::optional<FilterMethod> method;
   if (!compares_all(command)) method = parse_filter_method(command.method);
   check_method_options(sub, method);
+  check_output(command.beside, command.in.input);
   if (command.output.empty()) return;
   check_cube_name(command.output);
   check_output(command.output, command.in.input);
@@ -96,6 +103,13 @@ void print_all(const FilterCommand& command, const Image& radiance, const Filter
   print_truth(truth);
 }
 
+// The truth is that of frequency, whose error (1e-4) no picture shows.
+void write_beside(const FilterCommand& command, const Image& radiance, const FilterTarget& target,
+                  const Cube& cube) {
+  const Cube truth = filter_by_method(radiance, target, FilterMethod::frequency);
+  write_file(command.beside, draw_beside(truth, cube, command.method));
+}
+
 void run(const FilterCommand& command, const CLI::App& sub) {
   check(command, sub);
   const FilterTarget target{parse_kernel(command.kernel), command.size, command.scale};
@@ -106,6 +120,7 @@ void run(const FilterCommand& command, const CLI::App& sub) {
   const FilterMethod method = parse_filter_method(command.method);
   const Filtered result = filter(command, environment.radiance, target, method);
   if (!command.output.empty()) write_cube_file(command.output, result.cube, command.file);
+  if (!command.beside.empty()) write_beside(command, environment.radiance, target, result.cube);
   if (!command.verify) return;
   const FilterTruth truth = make_filter_truth(environment.radiance, target, command.texels);
   print_heading(target);
@@ -129,25 +144,13 @@ std::string known_method(const std::string& name) {
   }
 }
 
-std::string known_kernel(const std::string& spec) {
-  try {
-    parse_kernel(spec);
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
-
 }  // namespace
 
 void add_filter_command(CLI::App& app) {
   auto command = std::make_shared<FilterCommand>();
   CLI::App* sub = app.add_subcommand("filter", "Filter a map by one kernel, by any method; compare methods");
   add_environment_options(*sub, command->in);
-  sub->add_option("--kernel", command->kernel,
-                  "ggx:ALPHA, phong:N, blinn-phong:N, gaussian:RADIANS, vmf:KAPPA, lambert or table:FILE")
-      ->check(known_kernel)
-      ->capture_default_str();
+  sub->add_option("--kernel", command->kernel, kernel_spec_help())->capture_default_str();
   sub->add_option("--method", command->method, method_names() + "or all: a table that compares them")
       ->check(known_method)
       ->capture_default_str();
@@ -159,6 +162,9 @@ void add_filter_command(CLI::App& app) {
       ->check(CLI::Range(1e-30, 1e30))
       ->capture_default_str();
   sub->add_option("-o,--output", command->output, "File to write: .ktx2, .dds, .exr, .hdr or .png")
+      ->check(must_be_a_name);
+  sub->add_option("--beside", command->beside,
+                  "A .png for looking at: the truth, the result and their difference, beside each other")
       ->check(must_be_a_name);
   sub->add_option("--format", command->file.format, "Texels of .ktx2 and .dds")
       ->check(CLI::IsMember({"rgba16f", "rgba32f", "rgb9e5"}))

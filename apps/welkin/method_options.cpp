@@ -13,9 +13,9 @@ struct Owner {
 };
 
 constexpr Owner owners[] = {
-    {"--detail", FilterMethod::hierarchical},   {"--cut", FilterMethod::angular},
-    {"--samples", FilterMethod::importance},    {"--level-bias", FilterMethod::importance},
-    {"--scramble", FilterMethod::importance},   {"--seed", FilterMethod::importance},
+    {"--detail", FilterMethod::hierarchical}, {"--cut", FilterMethod::angular},
+    {"--samples", FilterMethod::importance},  {"--level-bias", FilterMethod::importance},
+    {"--scramble", FilterMethod::importance}, {"--seed", FilterMethod::importance},
     {"--tolerance", FilterMethod::frequency},
 };
 
@@ -52,8 +52,8 @@ void add_method_options(CLI::App& sub, FilterMethodOptions& options) {
 void check_method_options(const CLI::App& sub, std::optional<FilterMethod> method) {
   for (const Owner& owner : owners)
     if (method && owner.method != *method && sub.count(owner.flag) > 0)
-      throw CLI::ValidationError(
-          owner.flag, "is an option of --method " + std::string(filter_method_name(owner.method)));
+      throw CLI::ValidationError(owner.flag,
+                                 "is an option of --method " + std::string(filter_method_name(owner.method)));
 }
 
 }  // namespace welkin

@@ -95,7 +95,8 @@ class CapSum {
     }
   }
 
-  // The cap is one run of the row (a cone meets a line in one piece), or none.
+  // The cap is one run of the row (a cone meets a line in one piece), or none. Beyond 90 degrees what is cut off may be
+  // a run inside the row; it stays.
   void add_row(const float* texels, const double* solid_angle, const std::vector<double>& u,
                std::vector<double>& values, double* sums) const {
     std::size_t begin = 0, end = u.size();

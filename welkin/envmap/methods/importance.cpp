@@ -27,17 +27,16 @@ void check(const ImportanceOptions& options) {
 
 // A sample in the frame of the direction that is filtered.
 struct LobeSample {
-  double across, along;  // sine and cosine of the angle to the axis
-  double phi;
+  double x, y, z;  // the axis is z
   double level;
 };
 
-// The middle of a share's cell, so that the first sample is not the axis itself.
 LobeSample lobe_sample(const KernelQuantiles& quantiles, const ZonalKernel& kernel, Point2 point,
                        const ImportanceOptions& options, double texel_solid_angle) {
   const double u = quantiles.one_minus_cos(point[0]);
   const double solid_angle = 1 / (options.samples * std::max(1e-300, evaluate(kernel, u)));
-  return {std::sqrt(u * (2 - u)), 1 - u, 2 * pi * point[1],
+  const double across = std::sqrt(u * (2 - u)), phi = 2 * pi * point[1];
+  return {across * std::cos(phi), across * std::sin(phi), 1 - u,
           0.5 * std::log2(solid_angle / texel_solid_angle) + options.level_bias};
 }
 
@@ -77,8 +76,7 @@ class ImportanceSum {
     const std::uint64_t bits = bits_of(direction, options_.seed);
     for (int i = 0; i < options_.samples; ++i) {
       const LobeSample s = options_.scramble ? scrambled(i, bits) : samples_[static_cast<std::size_t>(i)];
-      const Vec3 at =
-          s.along * direction + s.across * (std::cos(s.phi) * frame.a + std::sin(s.phi) * frame.b);
+      const Vec3 at = s.z * direction + s.x * frame.a + s.y * frame.b;
       float value[3];
       look_up_cube(source_, at, s.level, value);
       for (int c = 0; c < 3; ++c) rgb[c] += static_cast<double>(value[c]) / options_.samples;
@@ -86,6 +84,7 @@ class ImportanceSum {
   }
 
  private:
+  // The middle of each share, so that the first sample is not the axis itself.
   Point2 point(int i) const {
     const auto count = static_cast<std::uint64_t>(options_.samples);
     const Point2 p = hammersley_point(static_cast<std::uint64_t>(i), count);
