@@ -82,11 +82,12 @@ TEST(FilterMethod, BruteIsTheOracle) {
 
 TEST(FilterMethod, FrequencyIsExact) { EXPECT_LT(worst_rms(FilterMethod::frequency), 1e-4); }
 
-// What docs/filters.md states for the defaults on maps of this kind, of 64 x 32 texels with lamps of 2 x 2: measured at
-// most 6e-2, 9e-2 and 1e-1. The largest are those of phong 100, whose lobe is hardly wider than the texels of a 64 x 32 map's cube.
-TEST(FilterMethod, HierarchicalKeepsItsError) { EXPECT_LT(worst_rms(FilterMethod::hierarchical), 0.15); }
-TEST(FilterMethod, AngularKeepsItsError) { EXPECT_LT(worst_rms(FilterMethod::angular), 0.15); }
-TEST(FilterMethod, ImportanceKeepsItsError) { EXPECT_LT(worst_rms(FilterMethod::importance), 0.2); }
+// What docs/filters.md states for the defaults on maps of this kind, 64 x 32 texels with lamps of 2 x 2: twice of what was
+// measured over four seeds, 0.05, 0.09 and 0.18. The last two are those of phong 100, whose lobe is hardly wider than the texels of the
+// cube of 16 that such a map makes.
+TEST(FilterMethod, HierarchicalKeepsItsError) { EXPECT_LT(worst_rms(FilterMethod::hierarchical), 0.1); }
+TEST(FilterMethod, AngularKeepsItsError) { EXPECT_LT(worst_rms(FilterMethod::angular), 0.2); }
+TEST(FilterMethod, ImportanceKeepsItsError) { EXPECT_LT(worst_rms(FilterMethod::importance), 0.4); }
 
 // More nodes and more samples are nearer to the truth.
 TEST(FilterMethod, HierarchicalConvergesWithDetail) {
