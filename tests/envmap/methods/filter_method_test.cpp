@@ -92,10 +92,10 @@ TEST(FilterMethod, ImportanceKeepsItsError) { EXPECT_LT(worst_rms(FilterMethod::
 // More nodes and more samples are nearer to the truth.
 TEST(FilterMethod, HierarchicalConvergesWithDetail) {
   FilterMethodOptions options;
-  options.hierarchical.detail = 32;
+  options.hierarchical.detail = 16;
   for (std::size_t i = 0; i < targets().size(); ++i) {
     const Cube cube = filter_by_method(cases()[0].map, targets()[i], FilterMethod::hierarchical, options);
-    // Texels' own width over the kernel's, squared, and 1/32 squared for the rest.
+    // Texels' own width over the kernel's, squared, and 1/16 squared for the rest.
     EXPECT_LT(relative_rms(cube, cases()[0].truths[i]), 5e-3) << describe(targets()[i].kernel);
   }
 }
