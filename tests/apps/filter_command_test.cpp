@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include "command_test.h"
 
 // welkin filter.
@@ -40,9 +43,9 @@ TEST_F(FilterCommandTest, TableOfAllMethods) {
 TEST_F(FilterCommandTest, PictureBesideTheTruth) {
   run_well(
       {"filter", "sky:studio,size=64x32", "--method", "hierarchical", "--size", "8", "--beside", "a.png"});
-  const auto info =
-      nlohmann::json::parse(run_well({"info", "a.png", "--mapping", "equirectangular", "--json"}));
-  EXPECT_NE(info.dump().find("PNG"), std::string::npos) << info;
+  const std::string png = read_text(at("a.png"));
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_GT(png.size(), 1000u);  // three crosses of 256 x 192 pixels
 }
 
 TEST_F(FilterCommandTest, RefusesWhatSaysNothingTogether) {
