@@ -16,6 +16,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double last_view = 88 * pi / 180;
+constexpr double filter_tolerance =
+    3e-3;  // of the mean: far below what lobes miss, and a fraction of the time
 
 void check(const LobeStackOptions& options) {
   if (options.views < 2 || options.views > 128)
@@ -81,7 +83,7 @@ LobeStack prepare(const Image& radiance, const IsotropicBrdf& brdf, const LobeSt
       stack.slots.push_back({lobe.axis, lobe.energy, static_cast<int>(targets.size()) - 1});
     }
   }
-  stack.cubes = filter_environment(radiance, targets);
+  stack.cubes = filter_environment(radiance, targets, {.tolerance = filter_tolerance, .progress = {}});
   return stack;
 }
 
