@@ -11,4 +11,12 @@ find_package(hwy REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_path(ASTCENC_INCLUDE_DIR astcenc.h REQUIRED)
 find_library(ASTCENC_LIBRARY astcenc REQUIRED)
+# The Debian package has no CMake files. Its header declares what a shared library exports only with this definition.
+if(NOT TARGET astcenc::astcenc)
+  add_library(astcenc::astcenc UNKNOWN IMPORTED)
+  set_target_properties(astcenc::astcenc PROPERTIES
+    IMPORTED_LOCATION "${ASTCENC_LIBRARY}"
+    INTERFACE_INCLUDE_DIRECTORIES "${ASTCENC_INCLUDE_DIR}"
+    INTERFACE_COMPILE_DEFINITIONS ASTCENC_DYNAMIC_LIBRARY)
+endif()
 find_path(KISSFFT_INCLUDE_DIR kissfft/kissfft.hh REQUIRED)

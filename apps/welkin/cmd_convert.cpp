@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "environment_options.h"
 #include "flat_file.h"
+#include "texture_options.h"
 
 #include <welkin/error.h>
 #include <welkin/image/codecs/dds.h>
@@ -28,7 +29,8 @@ namespace welkin {
 namespace {
 
 struct ConvertCommand {
-  std::string input, output, from, to, size, layout, format = "rgba16f", faults = "repair";
+  std::string input, output, from, to, size, layout, faults = "repair";
+  TextureInput texture;
   double rotate = 0;
   bool mirror = false, mips = false;
 };
@@ -51,6 +53,7 @@ void check_output(const ConvertCommand& command) {
   if (writes_six(command) || !is_texture(command.output)) check_flat_name(command.output);
   if (writes_six(command) && !command.layout.empty() && command.layout != "six")
     throw CLI::ValidationError("--layout", "a %s in the output's name writes six files");
+  if (is_texture(command.output)) check_container(command.texture, extension_of(command.output).substr(1));
   if (command.mips && (!is_texture(command.output) || !command.layout.empty()))
     throw CLI::ValidationError("--mips", "only cubes in .ktx2 and .dds have levels");
 }
@@ -184,13 +187,6 @@ SphereMap converted(const ConvertCommand& command, SphereMap map) {
   return resample(map, target, options);
 }
 
-PixelFormat named_format(const std::string& name) {
-  for (PixelFormat format : {PixelFormat::rgba16f, PixelFormat::rgba32f, PixelFormat::rgb9e5}) {
-    if (name == pixel_format_name(format)) return format;
-  }
-  throw Error("unknown --format \"" + name + "\"");
-}
-
 // Nothing that a format did to the values goes unsaid.
 void save_encoded(const std::string& path, const EncodedTexture& texture, bool scale_in_file) {
   write_file(path, texture.bytes);
@@ -205,11 +201,13 @@ template <class Texture>
 void save_texture(const ConvertCommand& command, const Texture& texture) {
   if (extension_of(command.output) == ".ktx2") {
     Ktx2Options options;
-    options.format = named_format(command.format);
+    options.format = command.texture.pixel_format();
+    options.quality = command.texture.block_quality();
     save_encoded(command.output, encode_ktx2(texture, options), true);
   } else {
     DdsOptions options;
-    options.format = named_format(command.format);
+    options.format = command.texture.pixel_format();
+    options.quality = command.texture.block_quality();
     save_encoded(command.output, encode_dds(texture, options), false);
   }
 }
@@ -270,9 +268,7 @@ void add_convert_command(CLI::App& app) {
       ->check(must_be_finite);
   sub->add_flag("--mirror", command->mirror, "Exchange left and right (z -> -z), before --rotate");
   sub->add_flag("--mips", command->mips, "Write all mip levels of a cube (.ktx2, .dds)");
-  sub->add_option("--format", command->format, "Texels of .ktx2 and .dds")
-      ->check(CLI::IsMember({"rgba16f", "rgba32f", "rgb9e5"}))
-      ->capture_default_str();
+  add_texture_options(*sub, command->texture, "Texels of .ktx2 and .dds", true);
   sub->add_option("--faults", command->faults, "NaN, infinite and negative values: repair or refuse")
       ->check(CLI::IsMember({"repair", "refuse"}))
       ->capture_default_str();

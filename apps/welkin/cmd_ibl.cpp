@@ -18,11 +18,13 @@
 #include "ibl_manifest.h"
 #include "ibl_preview.h"
 #include "ibl_report.h"
+#include "ibl_stored.h"
 #include "json_text.h"
 #include "light_options.h"
 #include "lights_json.h"
 #include "progress.h"
 #include "source_name.h"
+#include "texture_options.h"
 
 #include <welkin/envmap/ibl.h>
 #include <welkin/envmap/kernel_spec.h>
@@ -43,7 +45,8 @@ struct IblCommand {
   std::string output;
   IblOptions options;
   std::string kernel = "ggx", law = "linear", diffuse = "frequency";
-  std::string container = "ktx2", format = "rgba16f", range = "scale";
+  std::string container = "ktx2", range = "scale", edge_fixup = "none";
+  TextureInput texture;
   int zstd_level = 0;
   bool multiple_scattering = false, stretched_taps = false, verify = false;
   VerifyOptions verify_options;
@@ -87,6 +90,20 @@ void print_errors(const IblErrors& e) {
   fmt::print("DFG table            largest error {:.1e} at texel centres\n", e.dfg_max);
   fmt::print("measured against brute force in double precision, {} directions, {:.1f} s\n", e.directions,
              e.seconds);
+}
+
+std::string edge_text(double step) { return step > 0 ? fmt::format("{:.3f}", step) : "-"; }
+
+void print_stored(const IblSet& set, const StoredSetErrors& stored, const TextureInput& texture) {
+  fmt::print("after writing as {}, against what was computed, every texel:\n", texture.format);
+  fmt::print("level  size   rel. RMS  max/mean    energy  edge step  face step\n");
+  const auto line = [](const std::string& name, int size, const StoredErrors& e) {
+    fmt::print("{:>5} {:>5}   {:.2e}  {:.2e} {:>9.1e} {:>10}  {:.2e}\n", name, size, e.relative_rms,
+               e.max_over_mean, e.energy, edge_text(e.edge_step), e.face_step);
+  };
+  for (std::size_t k = 0; k < stored.specular.size(); ++k)
+    line(std::to_string(k), set.specular.levels[k].size, stored.specular[k]);
+  line("irr.", set.irradiance.size, stored.irradiance);
 }
 
 void print_files(const std::vector<IblFile>& files) {
@@ -167,9 +184,7 @@ void check_folder(const std::string& output) {
 
 // What would fail only after all the work.
 void check(const IblCommand& command) {
-  if (command.container == "exr" && command.format == "rgb9e5")
-    throw CLI::ValidationError("--format",
-                               "OpenEXR has no rgb9e5; choose rgba16f or rgba32f, or another --container");
+  check_container(command.texture, command.container);
   if (command.zstd_level > 0 && command.container != "ktx2")
     throw CLI::ValidationError("--zstd",
                                "is for --container ktx2; " + command.container + " has no such thing");
@@ -248,11 +263,13 @@ void run(IblCommand command) {
   options.diffuse = parse_diffuse(command.diffuse);
   if (command.multiple_scattering) options.dfg_form = DfgForm::scale_bias_with_multiple_scattering;
   IblFileOptions file_options{parse_container(command.container),
-                              parse_pixel_format(command.format),
+                              command.texture.pixel_format(),
                               command.range == "clip" ? RangePolicy::clip : RangePolicy::scale,
                               command.zstd_level,
                               options.law,
-                              nullptr};
+                              nullptr,
+                              command.texture.block_quality(),
+                              edge_fixup_from_name(command.edge_fixup).value()};
   const Environment environment = load(command.in);
   const double load_seconds = seconds();
   for (const std::string& warning : environment.warnings)
@@ -281,6 +298,8 @@ void run(IblCommand command) {
         {set.specular.size(), static_cast<int>(set.specular.levels.size()), options.law});
   if (taps) file_options.taps = &*taps;
   std::vector<IblFile> files = encode_ibl_files(set, file_options);
+  std::optional<StoredSetErrors> stored;
+  if (command.verify) stored = measure_stored(set, files, file_options);
   const ManifestInput described{&environment,
                                 command.in.options.rotate_degrees,
                                 command.in.options.mirror,
@@ -288,6 +307,8 @@ void run(IblCommand command) {
                                 &options,
                                 &files,
                                 &errors,
+                                &file_options,
+                                &stored,
                                 taken.lights ? &*taken.lights : nullptr,
                                 &taken.errors,
                                 load_seconds,
@@ -308,6 +329,7 @@ void run(IblCommand command) {
   if (taken.lights) print_taken(taken);
   print_levels(set, errors);
   if (errors) print_errors(*errors);
+  if (stored) print_stored(set, *stored, command.texture);
   print_files(files);
   fmt::print("wrote {} in {:.2f} s: open {}\n", command.output, seconds(),
              (std::filesystem::path(command.output) / "index.html").string());
@@ -353,8 +375,11 @@ void add_ibl_command(CLI::App& app) {
   sub->add_flag("--stretched-taps", command->stretched_taps,
                 "Write stretched_taps and its shader: three look-ups of specular in place of one, a third "
                 "of the split sum's error or less (see docs/reflection.md)");
-  sub->add_option("--format", command->format, "Of the cubes")
-      ->check(CLI::IsMember({"rgba16f", "rgba32f", "rgb9e5"}))
+  add_texture_options(*sub, command->texture, "Of the cubes", false);
+  sub->add_option(
+         "--edge-fixup", command->edge_fixup,
+         "For samplers that do not filter across faces: warp (the shader scales directions) or average")
+      ->check(CLI::IsMember({"none", "warp", "average"}))
       ->capture_default_str();
   sub->add_option("--container", command->container, "ktx2, dds or exr")
       ->check(CLI::IsMember({"ktx2", "dds", "exr"}))

@@ -18,6 +18,10 @@ struct Content {
   std::string name, quantity, unit;
 };
 
+std::string quality_name(BlockQuality quality) {
+  return quality == BlockQuality::fast ? "fast" : quality == BlockQuality::high ? "high" : "normal";
+}
+
 IblFile describe_file(const Content& content, const std::string& suffix, const IblFileOptions& options,
                       PixelFormat format) {
   IblFile file;
@@ -25,6 +29,7 @@ IblFile describe_file(const Content& content, const std::string& suffix, const I
   file.quantity = content.quantity;
   file.unit = content.unit;
   file.format = pixel_format_name(format);
+  if (pixel_layout(format).is_block()) file.quality = quality_name(options.quality);
   return file;
 }
 
@@ -52,21 +57,35 @@ void add_exr_levels(const Content& content, const CubeMips& cube, const IblFileO
   }
 }
 
-void add_cube(const Content& content, const CubeMips& cube, const IblFileOptions& options,
-              std::vector<IblFile>& files) {
+void add_fixed_cube(const Content& content, const CubeMips& cube, const IblFileOptions& options,
+                    std::vector<IblFile>& files) {
   if (options.container == Container::exr) return add_exr_levels(content, cube, options, files);
   IblFile file = describe_file(content, "", options, options.format);
   if (options.container == Container::ktx2) {
-    Ktx2Options ktx{
-        options.format, options.range, 0, options.zstd_level, {{"WelkinQuantity", content.quantity}}};
+    Ktx2Options ktx{options.format,
+                    options.range,
+                    0,
+                    options.zstd_level,
+                    {{"WelkinQuantity", content.quantity}},
+                    options.quality,
+                    options.edge_fixup != EdgeFixup::none};
+    if (options.edge_fixup != EdgeFixup::none)
+      ktx.keys[std::string(ktx2_edge_fixup_key)] = std::string(edge_fixup_name(options.edge_fixup));
     if (content.name == "specular") ktx.keys["WelkinLevelLaw"] = std::string(formula(options.law));
     take(file, encode_ktx2(cube, ktx));
   } else {
-    take(file, encode_dds(cube, {options.format, options.range, 0}));
+    take(file, encode_dds(cube, {options.format, options.range, 0, options.quality,
+                                 options.edge_fixup != EdgeFixup::none}));
   }
   file.size = cube.size();
   file.level_count = static_cast<int>(cube.levels.size());
   files.push_back(std::move(file));
+}
+
+void add_cube(const Content& content, const CubeMips& cube, const IblFileOptions& options,
+              std::vector<IblFile>& files) {
+  if (options.edge_fixup == EdgeFixup::none) return add_fixed_cube(content, cube, options, files);
+  add_fixed_cube(content, fix_edges(cube, options.edge_fixup), options, files);
 }
 
 // A flat table of two channels; exr has a third, zero.
@@ -77,9 +96,9 @@ void add_table(const Content& content, const Image& table, const IblFileOptions&
   IblFile file = describe_file(content, "", options, format);
   switch (options.container) {
     case Container::ktx2:
-      take(file, encode_ktx2(table, {format, RangePolicy::clip, 0, options.zstd_level, {}}));
+      take(file, encode_ktx2(table, {format, RangePolicy::clip, 0, options.zstd_level, {}, {}, false}));
       break;
-    case Container::dds: take(file, encode_dds(table, {format, RangePolicy::clip, 0})); break;
+    case Container::dds: take(file, encode_dds(table, {format, RangePolicy::clip, 0, {}, false})); break;
     case Container::exr: {
       Image rgb(table.width, table.height);
       for (std::size_t i = 0; i < table.pixels.size(); ++i) rgb.pixels[i / 2 * 3 + i % 2] = table.pixels[i];
@@ -127,15 +146,7 @@ std::string container_name(Container container) {
   }
 }
 
-PixelFormat parse_pixel_format(const std::string& name) {
-  for (PixelFormat f : {PixelFormat::rgba16f, PixelFormat::rgba32f, PixelFormat::rgb9e5})
-    if (name == pixel_format_name(f)) return f;
-  throw Error("unknown format '" + name + "'; choose rgba16f, rgba32f or rgb9e5");
-}
-
 std::vector<IblFile> encode_ibl_files(const IblSet& set, const IblFileOptions& options) {
-  if (options.container == Container::exr && options.format == PixelFormat::rgb9e5)
-    throw Error("OpenEXR has no rgb9e5; choose rgba16f or rgba32f, or another container");
   std::vector<IblFile> files;
   add_cube({"environment", "radiance", radiance_unit}, set.environment, options, files);
   add_cube({"specular", "prefiltered radiance, kernel normalised to 1", radiance_unit}, set.specular, options,

@@ -6,8 +6,10 @@
 
 #include <welkin/envmap/ibl.h>
 #include <welkin/envmap/reflection/stretched_taps.h>
+#include <welkin/image/codecs/block_quality.h>
 #include <welkin/image/packed_formats.h>
 #include <welkin/image/range_fit.h>
+#include <welkin/sphere/cube_edge_fixup.h>
 
 namespace welkin {
 
@@ -15,7 +17,6 @@ enum class Container { ktx2, dds, exr };
 
 Container parse_container(const std::string& name);
 std::string container_name(Container container);
-PixelFormat parse_pixel_format(const std::string& name);
 
 struct IblFileOptions {
   Container container = Container::ktx2;
@@ -24,6 +25,8 @@ struct IblFileOptions {
   int zstd_level = 0;  ///< ktx2 only
   LevelLaw law = LevelLaw::linear;
   const StretchedTapsTable* taps = nullptr;  ///< written too when there
+  BlockQuality quality = BlockQuality::normal;
+  EdgeFixup edge_fixup = EdgeFixup::none;  ///< of all cubes
 };
 
 /// One file of the set, encoded, and what the manifest says of it.
@@ -32,6 +35,7 @@ struct IblFile {
   std::string quantity;  ///< what the numbers are
   std::string unit;
   std::string format;
+  std::string quality;  ///< "fast", "normal" or "high" for formats of blocks, else empty
   int size = 0;
   int level_count = 1;
   double stored_scale = 1;  ///< true value = stored value * stored_scale

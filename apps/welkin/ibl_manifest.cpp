@@ -54,7 +54,28 @@ Json errors_json(const LevelErrors& e) {
   return json;
 }
 
-Json levels_json(const IblSet& set, const std::optional<IblErrors>& errors) {
+Json stored_json(const StoredErrors& e) {
+  Json json{{"relative_rms", e.relative_rms},
+            {"max_over_mean", e.max_over_mean},
+            {"energy", e.energy},
+            {"face_step", e.face_step}};
+  if (e.edge_step > 0) json["edge_step"] = e.edge_step;
+  return json;
+}
+
+// What a consumer has to do for the fix-up.
+const char* edge_lookup(EdgeFixup fixup) {
+  switch (fixup) {
+    case EdgeFixup::warp:
+      return "before each look-up in a level of size N, the two components of the direction that are not the "
+             "largest times (N - 1)/N";
+    case EdgeFixup::average: return "as it is, with or without filtering across faces";
+    default: return "with filtering across faces (seamless)";
+  }
+}
+
+Json levels_json(const IblSet& set, const std::optional<IblErrors>& errors,
+                 const std::optional<StoredSetErrors>& stored) {
   Json levels = Json::array();
   for (std::size_t k = 0; k < set.levels.size(); ++k) {
     const IblLevel& level = set.levels[k];
@@ -69,6 +90,7 @@ Json levels_json(const IblSet& set, const std::optional<IblErrors>& errors) {
     }
     if (errors && k > 0) json["errors"] = errors_json(errors->levels[k]);
     if (errors && k == 0) json["errors"] = {{"energy", errors->levels[0].energy}};
+    if (stored) json["stored_errors"] = stored_json(stored->specular[k]);
     levels.push_back(std::move(json));
   }
   return levels;
@@ -76,16 +98,19 @@ Json levels_json(const IblSet& set, const std::optional<IblErrors>& errors) {
 
 Json files_json(const std::vector<IblFile>& files) {
   Json list = Json::array();
-  for (const IblFile& f : files)
-    list.push_back({{"name", f.name},
-                    {"quantity", f.quantity},
-                    {"unit", f.unit},
-                    {"format", f.format},
-                    {"size", f.size},
-                    {"level_count", f.level_count},
-                    {"stored_scale", f.stored_scale},
-                    {"clipped", f.clipped},
-                    {"bytes", f.bytes.size()}});
+  for (const IblFile& f : files) {
+    Json json{{"name", f.name},
+              {"quantity", f.quantity},
+              {"unit", f.unit},
+              {"format", f.format},
+              {"size", f.size},
+              {"level_count", f.level_count},
+              {"stored_scale", f.stored_scale},
+              {"clipped", f.clipped},
+              {"bytes", f.bytes.size()}};
+    if (!f.quality.empty()) json["quality"] = f.quality;
+    list.push_back(std::move(json));
+  }
   list.push_back({{"name", "sh.json"},
                   {"quantity", "spherical-harmonic coefficients of the radiance"},
                   {"format", "json"}});
@@ -128,11 +153,14 @@ Json make_manifest(const ManifestInput& in) {
                        {"levels", set.levels.size()},
                        {"size", set.specular.size()}};
   json["files"] = files_json(*in.files);
-  json["levels"] = levels_json(set, errors);
+  const EdgeFixup fixup = in.file_options->edge_fixup;
+  json["edges"] = {{"fixup", edge_fixup_name(fixup)}, {"lookup", edge_lookup(fixup)}};
+  json["levels"] = levels_json(set, errors, *in.stored);
   json["irradiance"] = {{"size", set.irradiance.size}, {"method", method_name(in.options->diffuse)}};
   json["sh"] = {{"degree", set.radiance_sh.max_degree}};
   json["dfg"] = {{"size", set.dfg.size},
                  {"multiple_scattering_included", in.options->dfg_form != DfgForm::scale_bias}};
+  if (*in.stored) json["irradiance"]["stored_errors"] = stored_json((*in.stored)->irradiance);
   if (errors) {
     json["irradiance"]["errors"] = errors_json(errors->irradiance);
     json["sh"]["irradiance_mean_error"] = errors->sh_mean;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ibl_files.h"
+#include "ibl_stored.h"
 
 #include <welkin/envmap/environment.h>
 #include <welkin/envmap/lights_check.h>
@@ -20,6 +21,8 @@ struct ManifestInput {
   const IblOptions* options = nullptr;
   const std::vector<IblFile>* files = nullptr;
   const std::optional<IblErrors>* errors = nullptr;
+  const IblFileOptions* file_options = nullptr;
+  const std::optional<StoredSetErrors>* stored = nullptr;
   const ExtractedLights* lights = nullptr;             ///< null: none were asked for
   const RecombinationErrors* recombination = nullptr;  ///< of the lights
   double load_seconds = 0, total_seconds = 0;

@@ -191,6 +191,7 @@ std::string files(const Json& manifest) {
                                        {"unit", "Unit"},
                                        {"container", "Container"},
                                        {"format", "Format"},
+                                       {"quality", "Quality"},
                                        {"size", "Size"},
                                        {"level_count", "Levels"},
                                        {"stored_scale", "Stored scale"},
@@ -206,11 +207,17 @@ constexpr Column error_columns[] = {{"errors/relative_rms", "Relative RMS"},
                                     {"errors/energy", "Energy"},
                                     {"errors/edge_step", "Edge step"}};
 
+constexpr Column stored_columns[] = {{"stored_errors/relative_rms", "Stored RMS"},
+                                     {"stored_errors/max_over_mean", "Stored max"},
+                                     {"stored_errors/edge_step", "Stored edge step"},
+                                     {"stored_errors/face_step", "Face step"}};
+
 std::string levels(const Json& manifest) {
   std::vector<Column> columns{
       {"level", "Level"}, {"size", "Size"},     {"perceptual_roughness", "Perceptual roughness"},
       {"alpha", "Alpha"}, {"kernel", "Kernel"}, {"degree", "Degree"}};
   columns.insert(columns.end(), std::begin(error_columns), std::end(error_columns));
+  for (const Column& column : stored_columns) columns.push_back(column);
   columns.push_back({"seconds", "Seconds"});
   const std::string formula = shown(manifest, "level_law/formula");
   std::string html;
@@ -223,13 +230,17 @@ std::string levels(const Json& manifest) {
              "Errors against the direct sum over every texel in double precision: at texel centres, and as a "
              "bilinear look-up sees them. Energy: that of the level over the map's, minus 1. Edge step: mean "
              "step "
-             "across cube edges over mean step inside faces.");
+             "across cube edges over mean step inside faces. Stored: what the file's format did to the "
+             "computed level.");
 }
 
 std::string irradiance(const Json& manifest) {
   static constexpr Fact list[] = {
       {"irradiance/size", "Irradiance map", " texels a side"},
       {"irradiance/method", "Method", ""},
+      {"edges/fixup", "Edge fix-up of all cubes", ""},
+      {"edges/lookup", "How to look up", ""},
+      {"irradiance/stored_errors/relative_rms", "Relative RMS of what the format changed", ""},
       {"irradiance/errors/relative_rms", "Relative RMS at texel centres", ""},
       {"irradiance/errors/max_over_mean", "Largest error over the mean", ""},
       {"irradiance/errors/lookup_relative_rms", "Relative RMS of a look-up", ""},

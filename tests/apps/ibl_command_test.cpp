@@ -162,8 +162,8 @@ INSTANTIATE_TEST_SUITE_P(All, IblPackingTest,
                                          Packing{"ktx2", "rgb9e5", {}},
                                          Packing{"ktx2", "rgba16f", {"--zstd", "5"}},
                                          Packing{"dds", "rgba16f", {}}, Packing{"dds", "rgba32f", {}},
-                                         Packing{"dds", "rgb9e5", {}}, Packing{"exr", "rgba16f", {}},
-                                         Packing{"exr", "rgba32f", {}}),
+                                         Packing{"dds", "rgb9e5", {}}, Packing{"ktx2", "r11g11b10f", {}},
+                                         Packing{"exr", "rgba16f", {}}, Packing{"exr", "rgba32f", {}}),
                          [](const auto& instance) {
                            return instance.param.container + "_" + instance.param.format +
                                   (instance.param.more.empty() ? "" : "_zstd");
@@ -189,7 +189,8 @@ TEST_P(IblConstantTest, GivesPiLAndL) {
   expect_constant(set.irradiance, pi);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, IblConstantTest, testing::Values("rgba32f", "rgba16f", "rgb9e5"),
+INSTANTIATE_TEST_SUITE_P(Formats, IblConstantTest,
+                         testing::Values("rgba32f", "rgba16f", "rgb9e5", "r11g11b10f"),
                          [](const auto& instance) { return instance.param; });
 
 TEST_F(IblCommandTest, AScaleIsNamedEverywhere) {

@@ -78,11 +78,12 @@ void expect_complete(const std::filesystem::path& folder) {
 }
 
 // Half floats have 11 bits, steps of 2^-24 near zero. rgb9e5 has 9 bits for the largest channel of a pixel (256 to 511
-// steps), the others share its step, at least 2^-24. Single floats are written as they are; the smallest number stands
+// steps), the others share its step, at least 2^-24. r11g11b10f's blue has 6 bits, steps of 2^-19 near zero. Single floats are written as they are; the smallest number stands
 // for 0.
 double rounding(const std::string& format, double largest, double stored_scale) {
   const double least = stored_scale * std::exp2(-25);
   if (format == "rgba16f") return std::max(largest * std::exp2(-11), least);
+  if (format == "r11g11b10f") return std::max(largest / 64, stored_scale * std::exp2(-20));
   if (format == "rgb9e5") return std::max(largest / 511, least);
   return 1e-300;
 }

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <welkin/error.h>
+
 #include "tests/image/prefixes.h"
 #include "tests/image/textures.h"
 
@@ -17,7 +19,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr PixelFormat all_formats[] = {PixelFormat::rgba16f, PixelFormat::rgba32f, PixelFormat::rgb9e5,
-                                       PixelFormat::rg16f, PixelFormat::rg32f};
+                                       PixelFormat::rg16f,   PixelFormat::rg32f,   PixelFormat::r11g11b10f};
 
 void decode(std::span<const std::uint8_t> bytes) { decode_dds(bytes, "small.dds"); }
 
@@ -98,11 +100,8 @@ TEST(Dds, TheScaleIsReturned) {
 // Field by field, with the numbers of the DDS programming guide and dxgiformat.h.
 TEST(Dds, HeaderOfACube) {
   const std::vector<std::tuple<PixelFormat, std::uint32_t, std::uint32_t>> formats = {
-      {PixelFormat::rgba16f, 10, 8},
-      {PixelFormat::rgba32f, 2, 16},
-      {PixelFormat::rgb9e5, 67, 4},
-      {PixelFormat::rg16f, 34, 4},
-      {PixelFormat::rg32f, 16, 8}};
+      {PixelFormat::rgba16f, 10, 8}, {PixelFormat::rgba32f, 2, 16}, {PixelFormat::rgb9e5, 67, 4},
+      {PixelFormat::rg16f, 34, 4},   {PixelFormat::rg32f, 16, 8},   {PixelFormat::r11g11b10f, 26, 4}};
   for (const auto& [format, dxgi, texel] : formats) {
     DdsOptions options;
     options.format = format;
@@ -126,6 +125,23 @@ TEST(Dds, HeaderOfACube) {
     EXPECT_EQ(u32(bytes, 144), 0u);
     EXPECT_EQ(bytes.size(), 148 + 6 * (36 + 9 + 1) * texel);
   }
+}
+
+// The pitch becomes the bytes of the largest level; levels of 6, 3 and 1 have 4, 1 and 1 blocks.
+TEST(Dds, HeaderOfBlocks) {
+  for (const auto& [format, dxgi] : {std::tuple{PixelFormat::bc6h, 95u}, {PixelFormat::bc6h_signed, 96u}}) {
+    DdsOptions options;
+    options.format = format;
+    const Bytes bytes = encode_dds(test_cube(6, true), options).bytes;
+    EXPECT_EQ(u32(bytes, 8), 0xA1007u);  // linear size instead of pitch
+    EXPECT_EQ(u32(bytes, 20), 64u);
+    EXPECT_EQ(u32(bytes, 128), dxgi);
+    EXPECT_EQ(bytes.size(), 148u + 6 * (4 + 1 + 1) * 16);
+    EXPECT_EQ(decode_dds(bytes, "memory").cube.levels.size(), 3u);
+  }
+  DdsOptions options;
+  options.format = PixelFormat::astc;
+  EXPECT_THROW(encode_dds(test_cube(4, false), options), Error);
 }
 
 TEST(Dds, HeaderOfAFlatImage) {

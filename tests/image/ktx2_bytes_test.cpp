@@ -19,8 +19,9 @@ namespace {
 
 struct Expected {
   PixelFormat format;
-  std::uint32_t vk_format, type_size, texel_bytes, alignment;
+  std::uint32_t vk_format, type_size, texel_bytes, alignment;  // bytes of a texel or block
   std::vector<std::uint32_t> descriptor;
+  std::uint32_t block = 1;  // texels along its edge
 };
 
 // Words of the descriptor: total size; vendor and type; version and block size; model, primaries, transfer, flags;
@@ -63,6 +64,49 @@ const std::vector<Expected>& expectations() {
        {60, 0, 0x00380002, 0x00010101, 0, 8, 0,  //
         0xC01F0000, 0, 0xBF800000, 0x3F800000,   //
         0xC11F0020, 0, 0xBF800000, 0x3F800000}},
+      // Unsigned floats (0x80): 11 bits at 0 and 11, 10 bits at 22.
+      {PixelFormat::r11g11b10f,
+       122,
+       4,
+       4,
+       4,
+       {76, 0, 0x00480002, 0x00010101, 0, 4, 0,  //
+        0x800A0000, 0, 0, 0x3F800000,            //
+        0x810A000B, 0, 0, 0x3F800000,            //
+        0x82090016, 0, 0, 0x3F800000}},
+      // Models BC6H = 133 and ASTC = 162, block dimensions less one, one sample of 128 bits.
+      {PixelFormat::bc6h,
+       143,
+       1,
+       16,
+       16,
+       {44, 0, 0x00280002, 0x00010185, 0x0303, 16, 0,  //
+        0x807F0000, 0, 0, 0x3F800000},
+       4},
+      {PixelFormat::bc6h_signed,
+       144,
+       1,
+       16,
+       16,
+       {44, 0, 0x00280002, 0x00010185, 0x0303, 16, 0,  //
+        0xC07F0000, 0, 0xBF800000, 0x3F800000},
+       4},
+      {PixelFormat::astc,
+       1000066000,
+       1,
+       16,
+       16,
+       {44, 0, 0x00280002, 0x000101A2, 0x0303, 16, 0,  //
+        0xC07F0000, 0, 0xBF800000, 0x3F800000},
+       4},
+      {PixelFormat::astc6x6,
+       1000066004,
+       1,
+       16,
+       16,
+       {44, 0, 0x00280002, 0x000101A2, 0x0505, 16, 0,  //
+        0xC07F0000, 0, 0xBF800000, 0x3F800000},
+       6},
   };
   return all;
 }
@@ -120,7 +164,8 @@ void expect_levels(const std::vector<std::uint8_t>& bytes, const Expected& expec
     const std::uint64_t offset = u64(bytes, 80 + 24 * k), length = u64(bytes, 88 + 24 * k);
     const std::uint64_t width = std::max(1u, u32(bytes, 20) >> k), height = std::max(1u, u32(bytes, 24) >> k);
     EXPECT_EQ(offset, (end + alignment - 1) / alignment * alignment) << "level " << k;
-    EXPECT_EQ(u64(bytes, 96 + 24 * k), faces * width * height * expected.texel_bytes) << "level " << k;
+    const std::uint64_t b = expected.block, units = (width + b - 1) / b * ((height + b - 1) / b);
+    EXPECT_EQ(u64(bytes, 96 + 24 * k), faces * units * expected.texel_bytes) << "level " << k;
     EXPECT_EQ(compressed ? ZSTD_getFrameContentSize(bytes.data() + offset, length) : length,
               u64(bytes, 96 + 24 * k));
     for (std::uint64_t i = end; i < offset; ++i) EXPECT_EQ(bytes.at(i), 0) << "padding";
@@ -132,12 +177,13 @@ void expect_levels(const std::vector<std::uint8_t>& bytes, const Expected& expec
 TEST(Ktx2Bytes, Cubes) {
   for (const Expected& expected : expectations()) {
     for (const bool compressed : {false, true}) {
-      for (const int size : {1, 2, 6, 64}) {
+      for (const int size : {1, 2, 6, expected.block > 1 ? 12 : 64}) {  // blocks take their time
         for (const bool full : {false, true}) {
           const CubeMips cube = test_cube(size, full);
           Ktx2Options options;
           options.format = expected.format;
           options.zstd_level = compressed ? 3 : 0;
+          options.quality = BlockQuality::fast;
           const std::vector<std::uint8_t> bytes = encode_ktx2(cube, options).bytes;
           const auto side = static_cast<std::uint32_t>(size);
           expect_header(bytes, expected, {side, side, 6, static_cast<std::uint32_t>(cube.levels.size()), 0},

@@ -55,6 +55,21 @@ void expect_refused(const Bytes& bytes, const std::string& reason) {
   EXPECT_NE(message.find(reason), std::string::npos) << message;
 }
 
+TEST(Ktx2Damage, EveryPrefixOfBlocksIsRefused) {
+  for (const PixelFormat format : {PixelFormat::bc6h, PixelFormat::r11g11b10f})
+    expect_every_prefix_refused(small_cube(0, format), "small.ktx2", decode);
+}
+
+// The last block of a file is overwritten with zeros, an encoding that ASTC reserves.
+TEST(Ktx2Damage, InvalidBlocksAreRefused) {
+  for (const PixelFormat format : {PixelFormat::astc, PixelFormat::astc6x6}) {
+    Bytes bytes = small_cube(0, format);
+    std::fill(bytes.begin() + 300, bytes.end(), std::uint8_t{0});
+    expect_refused(bytes, "ASTC block");
+    expect_refused(Bytes(bytes.begin(), bytes.end() - 1), "cut off");
+  }
+}
+
 TEST(Ktx2Damage, EveryPrefixIsRefused) {
   for (const int zstd_level : {0, 3}) {
     expect_every_prefix_refused(small_cube(zstd_level), "small.ktx2", decode);

@@ -16,7 +16,7 @@ namespace welkin {
 namespace {
 
 constexpr PixelFormat all_formats[] = {PixelFormat::rgba16f, PixelFormat::rgba32f, PixelFormat::rgb9e5,
-                                       PixelFormat::rg16f, PixelFormat::rg32f};
+                                       PixelFormat::rg16f,   PixelFormat::rg32f,   PixelFormat::r11g11b10f};
 
 void expect_within_rounding(std::span<const float> before, std::span<const float> after, PixelFormat format,
                             double scale) {

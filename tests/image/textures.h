@@ -36,11 +36,13 @@ inline Image test_image(int width, int height, int channels = 3) {
 
 /// The most that the format's rounding may change a channel of a pixel whose largest stored channel is `largest`.
 /// Half: half of the unit 2^(e - 10) (values here are normal). rgb9e5: half of the unit 2^(e - 8), e from the largest
-/// channel, twice that where it carries into the next exponent. Channels that a format lacks are not asked for.
+/// channel, twice that where it carries into the next exponent. r11g11b10f: half of 2^(e - 5), blue's unit. Channels that a format lacks are not asked for.
 inline double rounding(PixelFormat format, double value, double largest) {
   if (format == PixelFormat::rgba32f || format == PixelFormat::rg32f) return 0;
   if (format == PixelFormat::rgb9e5) return std::exp2(std::ceil(std::log2(largest + 1e-30)) - 8) * 0.5;
-  return std::max(std::exp2(std::floor(std::log2(value))) / 2048, 0x1p-25);
+  const double unit_of_half = std::exp2(std::floor(std::log2(value))) / 1024;
+  if (format == PixelFormat::r11g11b10f) return std::max(32 * unit_of_half * 0.5, 0x1p-20);
+  return std::max(unit_of_half * 0.5, 0x1p-25);
 }
 
 }  // namespace welkin

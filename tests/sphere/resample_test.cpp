@@ -109,7 +109,7 @@ TEST(Resample, OverlapAloneNearlyKeepsEnergy) {
 TEST(Resample, MinificationIsTheMeanOverThePatch) {
   constexpr int n = 200;
   const MapShape from{Mapping::equirectangular, 80, 40}, to = map_shape(Mapping::cube, 6);
-  const SphereMap source = noise(from, 9), result = resample(source, to, {false, {}});
+  const SphereMap source = noise(from, 9), result = resample(source, to, {false, true, {}});
   for (int y = 0; y < to.height; ++y) {
     for (int x = 0; x < to.width; ++x) {
       double sum = 0, weight = 0;
@@ -252,7 +252,7 @@ TEST(Resample, CubeEdgesDoNotShowWhenMagnified) {
 TEST(Resample, NeverLeavesTheRangeOfTheSource) {
   for_each_pair(8, 40, [](MapShape from, MapShape to) {
     SphereMap source = noise(from, 6);
-    const SphereMap result = resample(source, to, {false, {}});
+    const SphereMap result = resample(source, to, {false, true, {}});
     for (float value : result.image.pixels) {
       ASSERT_GE(value, 0) << pair_name(from, to);
       ASSERT_LE(value, 1.999f) << pair_name(from, to);

@@ -9,6 +9,7 @@
 #include <welkin/image/codecs/little_endian.h>
 #include <welkin/image/codecs/size_limit.h>
 #include <welkin/image/codecs/texture_source.h>
+#include <welkin/image/codecs/texture_surface.h>
 
 namespace welkin {
 namespace {
@@ -26,7 +27,7 @@ constexpr std::size_t at_size = 4, at_height = 12, at_width = 16, at_levels = 28
                       at_misc = 136, at_array = 140;
 
 constexpr std::uint32_t flag_caps = 0x1, flag_height = 0x2, flag_width = 0x4, flag_pitch = 0x8,
-                        flag_pixel_format = 0x1000, flag_levels = 0x20000;
+                        flag_pixel_format = 0x1000, flag_levels = 0x20000, flag_linear_size = 0x80000;
 constexpr std::uint32_t format_has_fourcc = 0x4;
 constexpr std::uint32_t caps_complex = 0x8, caps_texture = 0x1000, caps_levels = 0x400000;
 constexpr std::uint32_t caps2_cube = 0x200, caps2_all_faces = 0xfc00, caps2_volume = 0x200000;
@@ -38,25 +39,33 @@ struct DdsFormat {
   std::string_view name;
 };
 
-// Those we write come first, in the order of PixelFormat.
-constexpr std::array<DdsFormat, 6> formats = {{
+// Those we write come first, in the order of PixelFormat; ASTC, which DDS has no number for, ends it.
+constexpr std::array<DdsFormat, 9> formats = {{
     {10, 113, {Component::half, 4}, "RGBA16F"},
     {2, 116, {Component::float32, 4}, "RGBA32F"},
     {67, 0, {Component::shared_exponent, 3}, "RGB9E5"},
     {34, 112, {Component::half, 2}, "RG16F"},
     {16, 115, {Component::float32, 2}, "RG32F"},
+    {26, 0, {Component::small_floats, 3}, "R11G11B10F"},
+    {95, 0, {Component::bc6h_unsigned, 3, 4, 4}, "BC6H"},
+    {96, 0, {Component::bc6h_signed, 3, 4, 4}, "BC6H signed"},
     {6, 0, {Component::float32, 3}, "RGB32F"},
 }};
+
+// Bytes of a row, or of the whole largest level where there are blocks.
+std::uint32_t pitch(const TextureSource& source, PixelLayout layout) {
+  return static_cast<std::uint32_t>(layout.image_bytes(source.width, layout.is_block() ? source.height : 1));
+}
 
 void put_header(std::vector<std::uint8_t>& bytes, const TextureSource& source, const DdsFormat& format) {
   const bool cube = source.faces == 6, mips = source.levels.size() > 1;
   put_u32(bytes, magic);
   put_u32(bytes, 124);
-  put_u32(bytes,
-          flag_caps | flag_height | flag_width | flag_pixel_format | flag_pitch | (mips ? flag_levels : 0));
+  put_u32(bytes, flag_caps | flag_height | flag_width | flag_pixel_format | (mips ? flag_levels : 0) |
+                     (format.layout.is_block() ? flag_linear_size : flag_pitch));
   put_u32(bytes, static_cast<std::uint32_t>(source.height));
   put_u32(bytes, static_cast<std::uint32_t>(source.width));
-  put_u32(bytes, static_cast<std::uint32_t>(static_cast<std::size_t>(source.width) * format.layout.bytes()));
+  put_u32(bytes, pitch(source, format.layout));
   put_u32(bytes, 0);  // depth
   put_u32(bytes, static_cast<std::uint32_t>(source.levels.size()));
   bytes.resize(at_format_size);  // reserved
@@ -75,25 +84,27 @@ void put_header(std::vector<std::uint8_t>& bytes, const TextureSource& source, c
 }
 
 EncodedTexture encode(const TextureSource& source, const DdsOptions& options) {
+  if (pixel_layout(options.format).component == Component::astc_hdr)
+    throw Error("DDS has no ASTC; choose bc6h or another container");
   const DdsFormat& format = formats.at(static_cast<std::size_t>(options.format));
-  const std::size_t texel = format.layout.bytes();
+  SurfaceEncoder encoder(options.format, options.quality, options.shared_edges);
   EncodedTexture texture;
   texture.stored_scale = texture_scale(source, options.format, options.range, options.stored_scale);
   const auto factor = static_cast<float>(1 / texture.stored_scale);
-  std::size_t values = 0;
-  for (const auto level : source.levels) values += level.size();
-  texture.bytes.reserve(dx10_header_size + values / static_cast<std::size_t>(source.channels) * texel);
+  std::vector<std::vector<std::uint8_t>> levels;
+  for (std::size_t k = 0; k < source.levels.size(); ++k) {
+    levels.emplace_back(source.shape(k).bytes(format.layout));
+    texture.clipped +=
+        encoder.encode(source.levels[k], source.shape(k), source.channels, factor, levels.back());
+  }
   put_header(texture.bytes, source, format);
   const auto faces = static_cast<std::size_t>(source.faces);
-  for (std::size_t face = 0; face < faces; ++face) {
-    for (const auto level : source.levels) {
-      const auto part = level.subspan(face * (level.size() / faces), level.size() / faces);
-      const std::size_t begin = texture.bytes.size();
-      texture.bytes.resize(begin + part.size() / static_cast<std::size_t>(source.channels) * texel);
-      texture.clipped += encode_pixels(part, source.channels, factor, options.format,
-                                       std::span(texture.bytes).subspan(begin));
+  for (std::size_t face = 0; face < faces; ++face)
+    for (const auto& level : levels) {
+      const auto begin = level.begin() + static_cast<std::ptrdiff_t>(face * (level.size() / faces));
+      texture.bytes.insert(texture.bytes.end(), begin,
+                           begin + static_cast<std::ptrdiff_t>(level.size() / faces));
     }
-  }
   return texture;
 }
 
@@ -121,7 +132,7 @@ void parse_dx10(Bytes bytes, std::string_view name, Header& header) {
   header.data_offset = dx10_header_size;
   if (header.format == nullptr) {
     throw Error(name, "DDS with DXGI format " + std::to_string(get_u32(bytes, at_dxgi)) +
-                          " is not read; only half, float and R9G9B9E5 textures are");
+                          " is not read; only half, float, R9G9B9E5, R11G11B10 and BC6H textures are");
   }
 }
 
@@ -153,18 +164,23 @@ Header parse_header(Bytes bytes, std::string_view name) {
   dx10 ? parse_dx10(bytes, name, header) : parse_legacy(bytes, name, header);
   if (header.cube && header.width != header.height)
     throw Error(name, "the faces of this DDS cube are not square");
+  const PixelLayout layout = header.format->layout;
   check_image_size(name, header.width, std::int64_t{header.height} * (header.cube ? 6 : 1), bytes.size(),
-                   1.0 / static_cast<double>(header.format->layout.bytes()));
+                   layout.block_width * layout.block_height / static_cast<double>(layout.bytes()));
   if (header.levels > static_cast<std::uint32_t>(std::bit_width(std::max(header.width, header.height)))) {
     throw Error(name, "this DDS file claims more mip levels than its size has");
   }
   return header;
 }
 
-// Bytes of one level of one face.
+// One level of one face.
+SurfaceShape level_shape(const Header& header, std::uint32_t level) {
+  return {static_cast<int>(std::max(1u, header.width >> level)),
+          static_cast<int>(std::max(1u, header.height >> level)), 1};
+}
+
 std::size_t level_bytes(const Header& header, std::uint32_t level) {
-  return std::size_t{std::max(1u, header.width >> level)} * std::max(1u, header.height >> level) *
-         header.format->layout.bytes();
+  return level_shape(header, level).bytes(header.format->layout);
 }
 
 }  // namespace
@@ -187,10 +203,10 @@ LoadedImage decode_dds(Bytes bytes, std::string_view name) {
   const Bytes data = bytes.subspan(header.data_offset);
   LoadedImage image;
   image.format = "DDS " + std::string(header.format->name);
-  const PixelLayout layout = header.format->layout;
+  SurfaceDecoder decoder(header.format->layout);
   if (!header.cube) {
     image.flat = Image(static_cast<int>(header.width), static_cast<int>(header.height));
-    decode_pixels(data.first(level_bytes(header, 0)), layout, 1, image.flat.pixels);
+    decoder.decode(data.first(level_bytes(header, 0)), level_shape(header, 0), 1, image.flat.pixels, name);
     return image;
   }
   std::size_t offset = 0;  // of the level inside each face's part
@@ -198,8 +214,8 @@ LoadedImage decode_dds(Bytes bytes, std::string_view name) {
     Cube level(static_cast<int>(std::max(1u, header.width >> k)));
     const std::size_t values = level.texels.size() / 6, size = level_bytes(header, k);
     for (std::size_t face = 0; face < 6; ++face) {
-      decode_pixels(data.subspan(face * face_bytes + offset, size), layout, 1,
-                    std::span(level.texels).subspan(face * values, values));
+      decoder.decode(data.subspan(face * face_bytes + offset, size), level_shape(header, k), 1,
+                     std::span(level.texels).subspan(face * values, values), name);
     }
     offset += size;
     image.cube.levels.push_back(std::move(level));

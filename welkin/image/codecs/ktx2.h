@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include <welkin/image/codecs/block_quality.h>
 #include <welkin/image/codecs/encoded_texture.h>
 #include <welkin/image/image.h>
 #include <welkin/image/loaded_image.h>
@@ -12,10 +13,14 @@
 #include <welkin/image/range_fit.h>
 
 // KTX 2.0 files (Khronos, KTX File Format Specification 2.0, revision 4): cube maps with mip levels and flat
-// images in float formats, with Zstandard supercompression by choice, and with text keys that say what the
+// images in float formats and HDR blocks, with Zstandard supercompression by choice, and text keys that say what the
 // numbers mean.
 
 namespace welkin {
+
+/// The key under which `welkin ibl` says what was done to the edges of a cube's faces ("warp" or "average",
+/// welkin/sphere/cube_edge_fixup.h). The reader warns of "warp": texels lie elsewhere than in other cubes.
+inline constexpr std::string_view ktx2_edge_fixup_key = "WelkinEdgeFixup";
 
 struct Ktx2Options {
   PixelFormat format = PixelFormat::rgba16f;
@@ -29,6 +34,9 @@ struct Ktx2Options {
   /// with "KTX" or "ktx" are reserved by the specification, WelkinStoredScale is written by the encoder: both
   /// are refused.
   std::map<std::string, std::string> keys;
+  BlockQuality quality = BlockQuality::normal;  ///< for BC6H and ASTC
+  bool shared_edges =
+      false;  ///< cubes whose faces hold equal texels along edges: keep them so, see SurfaceEncoder
 };
 
 /// Encodes all levels of a cube (1, 2, 3 or 4 channels, see encode_pixels; alpha = 1), linear Rec.709. The values are
@@ -42,7 +50,8 @@ EncodedTexture encode_ktx2(const CubeMips& cube, const Ktx2Options& options = {}
 EncodedTexture encode_ktx2(const Image& image, const Ktx2Options& options = {});
 
 /// Decodes cube maps with any number of levels and flat images (their largest level) in R16G16, R16G16B16,
-/// R16G16B16A16, R32G32, R32G32B32, R32G32B32A32 SFLOAT and E5B9G9R9, plain or with Zstandard. The pixels are
+/// R16G16B16A16, R32G32, R32G32B32, R32G32B32A32 SFLOAT, E5B9G9R9, B10G11R11, BC6H (both) and ASTC HDR 4x4 and 6x6,
+/// plain or with Zstandard. The pixels are
 /// true values: WelkinStoredScale is multiplied back in, and LoadedImage::stored_scale is 1. A flat image
 /// that is stored upside down or mirrored (KTXorientation) is turned to rows from the top. Two channels get a
 /// zero third one; alpha is dropped. Throws Error naming `name` for anything damaged, truncated or of another

@@ -35,12 +35,12 @@ const Ktx2Format& ktx2_format(PixelFormat format);
 /// The entry with this VkFormat; null for one that we do not read.
 const Ktx2Format* find_ktx2_format(std::uint32_t vk_format);
 
-/// The alignment of a level's first byte: lcm(bytes of a pixel, 4), or 1 when supercompressed.
+/// The alignment of a level's first byte: lcm(bytes of a pixel or block, 4), or 1 when supercompressed.
 std::size_t ktx2_level_alignment(PixelLayout layout, bool supercompressed);
 
 /// The data format descriptor as words, its total size first: one basic block (Khronos Data Format
-/// Specification 1.3, block version 2), model RGBSDA, primaries BT.709, transfer linear, straight alpha.
-/// bytesPlane0 is the size of a pixel with or without supercompression (KTX 2.0 revision 4; older revisions
+/// Specification 1.3, block version 2), model RGBSDA, BC6H or ASTC, primaries BT.709, transfer linear, straight alpha.
+/// bytesPlane0 is the size of a pixel or block with or without supercompression (KTX 2.0 revision 4; older revisions
 /// had 0 when supercompressed, at which today's validators warn).
 std::vector<std::uint32_t> ktx2_data_format_descriptor(PixelLayout layout);
 

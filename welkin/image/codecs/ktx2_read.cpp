@@ -12,6 +12,7 @@
 #include <welkin/image/codecs/ktx2_format.h>
 #include <welkin/image/codecs/little_endian.h>
 #include <welkin/image/codecs/size_limit.h>
+#include <welkin/image/codecs/texture_surface.h>
 
 namespace welkin {
 namespace {
@@ -64,7 +65,8 @@ const Ktx2Format& check_kind(const Header& header, std::size_t file_size, std::s
   const Ktx2Format* format = find_ktx2_format(header.vk_format);
   if (format == nullptr) {
     throw Error(name, "KTX2 with VkFormat " + std::to_string(header.vk_format) +
-                          " is not read; only half, float and E5B9G9R9 textures are");
+                          " is not read; only half, float, E5B9G9R9, B10G11R11, BC6H and ASTC HDR 4x4 and "
+                          "6x6 textures are");
   }
   if (header.scheme != ktx2_scheme_none && header.scheme != ktx2_scheme_zstd) {
     throw Error(name, "KTX2 supercompression scheme " + std::to_string(header.scheme) +
@@ -78,8 +80,10 @@ const Ktx2Format& check_kind(const Header& header, std::size_t file_size, std::s
   if (header.faces == 6 && header.width != header.height)
     throw Error(name, "the faces of this KTX2 cube are not square");
   const double stored_per_byte = header.scheme == ktx2_scheme_zstd ? zstd_bytes_per_byte : 1.0;
-  check_image_size(name, header.width, std::int64_t{header.height} * header.faces, file_size,
-                   stored_per_byte / static_cast<double>(format->layout.bytes()));
+  const PixelLayout layout = format->layout;
+  check_image_size(
+      name, header.width, std::int64_t{header.height} * header.faces, file_size,
+      stored_per_byte * layout.block_width * layout.block_height / static_cast<double>(layout.bytes()));
   const auto most_levels = static_cast<std::uint32_t>(std::bit_width(std::max(header.width, header.height)));
   if (header.levels > most_levels)
     throw Error(name, "this KTX2 file claims more mip levels than its size has");
@@ -192,24 +196,30 @@ LoadedImage decode_ktx2(Bytes bytes, std::string_view name) {
   LoadedImage image;
   image.format = "KTX2 " + std::string(format.name) + (header.scheme == ktx2_scheme_zstd ? " zstd" : "");
   add_colour_warnings(bytes, header, name, image);
-  const std::size_t texel = format.layout.bytes();
+  SurfaceDecoder decoder(format.layout);
   std::vector<std::uint8_t> plain;
   if (header.faces == 1) {
-    const std::size_t size = std::size_t{header.width} * header.height * texel;
-    const Bytes stored = level_bytes(bytes, header, 0, size, plain, name);
-    image.flat = Image(static_cast<int>(header.width), static_cast<int>(header.height));
-    decode_pixels(stored, format.layout, scale, image.flat.pixels);
+    const SurfaceShape shape{static_cast<int>(header.width), static_cast<int>(header.height), 1};
+    const Bytes stored = level_bytes(bytes, header, 0, shape.bytes(format.layout), plain, name);
+    image.flat = Image(shape.width, shape.height);
+    decoder.decode(stored, shape, scale, image.flat.pixels, name);
     turn_upright(image.flat, orientation);
     return image;
   }
   if (!orientation.empty() && orientation != "rd") {
     image.warnings.push_back("its KTXorientation is not 'rd', which cube maps need; taken as 'rd'");
   }
+  if (keys[std::string(ktx2_edge_fixup_key)] == "warp") {
+    image.warnings.push_back(
+        "its faces are warped for samplers that do not filter across edges (--edge-fixup warp); "
+        "read as they lie, its texels are up to half a texel off");
+  }
   for (std::uint32_t k = 0; k < header.levels; ++k) {
-    const std::size_t side = std::max(1u, header.width >> k);
-    const Bytes stored = level_bytes(bytes, header, k, 6 * side * side * texel, plain, name);
-    Cube level(static_cast<int>(side));
-    decode_pixels(stored, format.layout, scale, level.texels);
+    const int side = static_cast<int>(std::max(1u, header.width >> k));
+    const SurfaceShape shape{side, side, 6};
+    const Bytes stored = level_bytes(bytes, header, k, shape.bytes(format.layout), plain, name);
+    Cube level(side);
+    decoder.decode(stored, shape, scale, level.texels, name);
     image.cube.levels.push_back(std::move(level));
   }
   return image;

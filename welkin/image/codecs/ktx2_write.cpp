@@ -9,6 +9,7 @@
 #include <welkin/image/codecs/ktx2_format.h>
 #include <welkin/image/codecs/little_endian.h>
 #include <welkin/image/codecs/texture_source.h>
+#include <welkin/image/codecs/texture_surface.h>
 
 namespace welkin {
 namespace {
@@ -70,16 +71,21 @@ struct EncodedLevel {
   std::size_t plain_size = 0;
 };
 
-EncodedLevel encode_level(std::span<const float> texels, int channels, double stored_scale,
-                          const Ktx2Options& options, std::size_t& clipped) {
-  const std::size_t pixels = texels.size() / static_cast<std::size_t>(channels);
-  EncodedLevel level;
-  level.plain_size = pixels * pixel_layout(options.format).bytes();
-  level.bytes.resize(level.plain_size);
-  const auto factor = static_cast<float>(1 / stored_scale);
-  clipped += encode_pixels(texels, channels, factor, options.format, level.bytes);
-  if (options.zstd_level > 0) level.bytes = compressed(level.bytes, options.zstd_level);
-  return level;
+std::vector<EncodedLevel> encode_levels(const TextureSource& source, const Ktx2Options& options,
+                                        EncodedTexture& texture) {
+  SurfaceEncoder encoder(options.format, options.quality, options.shared_edges);
+  const auto factor = static_cast<float>(1 / texture.stored_scale);
+  std::vector<EncodedLevel> levels;
+  for (std::size_t k = 0; k < source.levels.size(); ++k) {
+    const SurfaceShape shape = source.shape(k);
+    EncodedLevel level;
+    level.plain_size = shape.bytes(pixel_layout(options.format));
+    level.bytes.resize(level.plain_size);
+    texture.clipped += encoder.encode(source.levels[k], shape, source.channels, factor, level.bytes);
+    if (options.zstd_level > 0) level.bytes = compressed(level.bytes, options.zstd_level);
+    levels.push_back(std::move(level));
+  }
+  return levels;
 }
 
 // Header and level index. The order in the file is: header, level index, data format descriptor, key/value
@@ -132,10 +138,7 @@ EncodedTexture encode(const TextureSource& source, const Ktx2Options& options) {
   check_options(options);
   EncodedTexture texture;
   texture.stored_scale = texture_scale(source, options.format, options.range, options.stored_scale);
-  std::vector<EncodedLevel> levels;
-  for (const auto texels : source.levels) {
-    levels.push_back(encode_level(texels, source.channels, texture.stored_scale, options, texture.clipped));
-  }
+  const std::vector<EncodedLevel> levels = encode_levels(source, options, texture);
   const PixelLayout pixel = pixel_layout(options.format);
   const std::vector<std::uint32_t> descriptor = ktx2_data_format_descriptor(pixel);
   const std::vector<std::uint8_t> keys = key_value_data(options, texture.stored_scale);

@@ -1,7 +1,9 @@
 #pragma once
+#include <algorithm>
 #include <span>
 #include <vector>
 
+#include <welkin/image/codecs/texture_surface.h>
 #include <welkin/image/image.h>
 #include <welkin/image/range_fit.h>
 
@@ -12,6 +14,10 @@ namespace welkin {
 struct TextureSource {
   int width = 0, height = 0, faces = 1, channels = 3;
   std::vector<std::span<const float>> levels;
+
+  SurfaceShape shape(std::size_t level) const {
+    return {std::max(1, width >> level), std::max(1, height >> level), faces};
+  }
 };
 
 /// Views into the cube or image, which must outlive the result. Throws Error when it is empty, has not 1 to 4 channels,
