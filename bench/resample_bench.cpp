@@ -25,7 +25,7 @@ double constant_error(MapShape from, MapShape to) {
   SphereMap flat = make_sphere_map({from.mapping, from.width / 4, from.height / 4});
   std::fill(flat.image.pixels.begin(), flat.image.pixels.end(), 2.5f);
   const MapShape small{to.mapping, to.width / 4, to.height / 4};
-  const SphereMap out = resample(flat, small, {false, {}});
+  const SphereMap out = resample(flat, small, {false, true, {}});
   double largest = 0;
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x)
