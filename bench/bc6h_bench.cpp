@@ -55,6 +55,34 @@ int brighter_channels(const Image& image, const std::vector<float>& back) {
   return count;
 }
 
+double relative_rms(const std::vector<float>& a, const std::vector<float>& truth) {
+  double error = 0, norm = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double t = truth[i], d = a[i] - t;
+    error += d * d, norm += t * t;
+  }
+  return std::sqrt(error / norm);
+}
+
+// What counting bright texels by their energy costs in RMSLE and wins in linear error.
+void bench_linear(bench::Report& report, const Image& image) {
+  std::vector<std::uint8_t> blocks(bc6h_bytes(image.width, image.height));
+  std::vector<float> back(image.pixels.size());
+  double mean = 0;
+  for (const float p : image.pixels)
+    mean += static_cast<double>(p) / static_cast<double>(image.pixels.size());
+  for (const double linear_above : {0.0, 16 * mean}) {
+    const double seconds = bench::seconds_of([&] {
+      encode_bc6h(image.pixels, image.width, image.height, 3, 1,
+                  {.speed = Bc6hSpeed::normal, .linear_above = linear_above}, blocks);
+    });
+    decode_bc6h(blocks, image.width, image.height, false, 1, back);
+    report.figure(linear_above > 0 ? "normal, linear above 16 means" : "normal, logarithmic",
+                  bench::timing_of({seconds}), rmsle(back, image.pixels), 0.05,
+                  fmt::format("relative RMS {:.1e}", relative_rms(back, image.pixels)));
+  }
+}
+
 void bench_map(bench::Report& report, const std::string& name, Image image) {
   for (float& p : image.pixels) {
     std::size_t clipped = 0;
@@ -80,6 +108,7 @@ void bench_map(bench::Report& report, const std::string& name, Image image) {
   }
   const bench::Timing decode =
       bench::measure(5, [&] { decode_bc6h(blocks, image.width, image.height, false, 1, back); });
+  bench_linear(report, image);
   report.figure("bc6h decode", decode, 0, 0, rate(decode.best));
   std::vector<std::uint8_t> words(image.pixels.size() / 3 * 4);
   const bench::Timing packed =

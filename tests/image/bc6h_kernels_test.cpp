@@ -24,7 +24,7 @@ Targets random_targets(std::mt19937& random, bool is_signed) {
     h = is_signed && random() % 2 == 0 ? -h : h;
   }
   for (float& i : importance) i = static_cast<float>(random() % 3 + 1);
-  return make_targets(halves, importance, is_signed);
+  return make_targets(halves, importance, is_signed, error_scale()->values());
 }
 
 Ends random_ends(std::mt19937& random, const Targets& targets) {
@@ -46,7 +46,8 @@ double distance(const Targets& targets, const Ends& ends, int weight, int t) {
   double sum = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     const int half = half_of_position(interpolate(ends.first[c], ends.second[c], weight), targets.is_signed);
-    const double d = static_cast<double>(error_scale()[half]) - static_cast<double>(targets.level[c][t]);
+    const double d =
+        static_cast<double>(error_scale()->values()[half]) - static_cast<double>(targets.level[c][t]);
     sum += std::abs(half) > targets.limit[c] ? static_cast<double>(forbidden) : d * d;
   }
   return sum;
@@ -96,12 +97,12 @@ TEST(Bc6hKernels, ChannelCostIsWhatAssignedTexelsCost) {
                 second[2] = {ends.second[c], ends.second[c] / 2};
       double cost[2] = {}, direct[2] = {};
       for (int k = 0; k < 2; ++k) {
-        cost[k] = channel_cost(statistics, first[k], second[k], 16, 0x7bff, targets.is_signed);
+        cost[k] = channel_cost(targets.scale, statistics, first[k], second[k], 16, 0x7bff, targets.is_signed);
         for (int t = 0; t < 16; ++t) {
           const int half =
               half_of_position(interpolate(first[k], second[k], weights4[indices[t]]), targets.is_signed);
           const double d =
-              static_cast<double>(error_scale()[half]) - static_cast<double>(targets.level[c][t]);
+              static_cast<double>(error_scale()->values()[half]) - static_cast<double>(targets.level[c][t]);
           direct[k] += static_cast<double>(targets.importance[t]) * d * d;
         }
       }
@@ -152,17 +153,29 @@ TEST(Bc6hKernels, PartitionOfTwoLinesIsRankedFirst) {
                  halves[3 * t + 2] = 15000;
     }
     std::array<float, partition_count> estimates{};
-    const float one = rank_partitions(make_targets(halves, equal_importance, false), estimates);
+    const float one =
+        rank_partitions(make_targets(halves, equal_importance, false, error_scale()->values()), estimates);
     const auto best = std::min_element(estimates.begin(), estimates.end()) - estimates.begin();
     EXPECT_EQ(best, p);
     EXPECT_LT(estimates[static_cast<std::size_t>(p)], one);
   }
 }
 
+TEST(Bc6hKernels, LinearErrorScaleIncreasesAndCountsDifferences) {
+  for (double above : {0.001, 3.0, 1e4}) {
+    const ErrorScale scale(above);
+    for (int h = -0x7c00; h < 0x7c00; ++h) ASSERT_LT(scale.values()[h], scale.values()[h + 1]) << h;
+  }
+  // From 32768 to 65504 the logarithm adds ln 2, the difference 32736 / 3 (0x7800 and 0x7bff are these halves).
+  const ErrorScale scale(3);
+  EXPECT_NEAR(scale.values()[0x7bff] - scale.values()[0x7800], 32736.0 / 3 + std::log(2.0), 0.02);
+}
+
 TEST(Bc6hKernels, ErrorScaleIncreases) {
-  for (int h = -0x7c00; h < 0x7c00; ++h) ASSERT_LT(error_scale()[h], error_scale()[h + 1]) << h;
-  EXPECT_EQ(error_scale()[0], 0);
-  EXPECT_NEAR(error_scale()[0x3c00], std::log(2.0) * (1 + 15.0 / 512),
+  for (int h = -0x7c00; h < 0x7c00; ++h)
+    ASSERT_LT(error_scale()->values()[h], error_scale()->values()[h + 1]) << h;
+  EXPECT_EQ(error_scale()->values()[0], 0);
+  EXPECT_NEAR(error_scale()->values()[0x3c00], std::log(2.0) * (1 + 15.0 / 512),
               1e-6);  // x = 1; half 15 octaves above 0
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 #include <welkin/image/codecs/astc.h>
 #include <welkin/image/codecs/bc6h/bc6h.h>
+#include <welkin/parallel/parallel_for.h>
 
 namespace welkin {
 namespace {
@@ -45,6 +47,18 @@ std::size_t to_rgba(std::span<const float> pixels, int channels, float factor, s
     to[3] = 1;
   }
   return clipped;
+}
+
+// What cannot be stored counts for nothing.
+double mean_magnitude(std::span<const float> values, float factor) {
+  const auto sums = parallel_partials<double>(values.size(), std::size_t{1} << 16,
+                                              [&](double& sum, std::size_t begin, std::size_t end) {
+                                                for (std::size_t i = begin; i < end; ++i) {
+                                                  const float value = std::abs(values[i] * factor);
+                                                  sum += value <= 65504.0f ? value : 0.0f;
+                                                }
+                                              });
+  return std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(values.size());
 }
 
 Bc6hSpeed bc6h_speed(BlockQuality quality) {
@@ -96,8 +110,11 @@ struct SurfaceEncoder::State {
     return clipped;
   }
 
-  Bc6hOptions bc6h_options() const {
-    return {layout.component == Component::bc6h_signed, bc6h_speed(quality)};
+  // Textures hold light: what is far above the mean counts by its energy.
+  Bc6hOptions bc6h_options(std::span<const float> texels, float factor) const {
+    constexpr double linear_above_mean = 16;
+    return {layout.component == Component::bc6h_signed, bc6h_speed(quality),
+            linear_above_mean * mean_magnitude(texels, factor)};
   }
 
   bool is_joined_cube(SurfaceShape shape) const {
@@ -106,17 +123,16 @@ struct SurfaceEncoder::State {
   }
 
   std::size_t encode_cube(std::span<const float> texels, SurfaceShape shape, int channels, float factor,
-                          std::span<std::uint8_t> bytes) {
+                          const Bc6hOptions& options, std::span<std::uint8_t> bytes) {
     Cube cube;
     cube.size = shape.width;
     cube.texels = to_rgb(texels, channels);
-    return encode_bc6h_cube(cube, factor, bc6h_options(), true, bytes);
+    return encode_bc6h_cube(cube, factor, options, true, bytes);
   }
 
   std::size_t encode_face(std::span<const float> texels, SurfaceShape shape, int channels, float factor,
-                          std::span<std::uint8_t> bytes) {
+                          const Bc6hOptions& options, std::span<std::uint8_t> bytes) {
     if (layout.component == Component::astc_hdr) return encode_astc(texels, shape, channels, factor, bytes);
-    const Bc6hOptions options = bc6h_options();
     if (channels >= 3)
       return encode_bc6h(texels, shape.width, shape.height, channels, factor, options, bytes);
     return encode_bc6h(to_rgb(texels, channels), shape.width, shape.height, 3, factor, options, bytes);
@@ -135,10 +151,12 @@ std::size_t SurfaceEncoder::encode(std::span<const float> texels, SurfaceShape s
   assert(texels.size() == shape.pixels() * static_cast<std::size_t>(channels));
   assert(bytes.size() == shape.bytes(state_->layout));
   if (!state_->layout.is_block()) return encode_pixels(texels, channels, factor, state_->format, bytes);
-  if (state_->is_joined_cube(shape)) return state_->encode_cube(texels, shape, channels, factor, bytes);
+  const Bc6hOptions options = state_->bc6h_options(texels, factor);
+  if (state_->is_joined_cube(shape))
+    return state_->encode_cube(texels, shape, channels, factor, options, bytes);
   std::size_t clipped = 0;
   for (int face = 0; face < shape.faces; ++face)
-    clipped += state_->encode_face(part_of(texels, face, shape.faces), shape, channels, factor,
+    clipped += state_->encode_face(part_of(texels, face, shape.faces), shape, channels, factor, options,
                                    part_of(bytes, face, shape.faces));
   return clipped;
 }

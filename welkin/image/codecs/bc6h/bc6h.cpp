@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include <welkin/image/codecs/bc6h/encode_block.h>
+#include <welkin/image/codecs/bc6h/error_scale.h>
 #include <welkin/image/half.h>
 #include <welkin/parallel/parallel_for.h>
 
@@ -14,9 +15,8 @@ namespace {
 
 std::size_t blocks_of(int texels) { return (static_cast<std::size_t>(texels) + 3) / 4; }
 
-Bc6hBlock encode_halves(const int halves[48], const Bc6hOptions& options) {
-  const bc6h::Targets targets = bc6h::make_targets(halves, bc6h::equal_importance, options.is_signed);
-  return bc6h::pack(bc6h::encode(targets, options.speed).code);
+Bc6hBlock encode_halves(const int halves[48], const Bc6hOptions& options, const bc6h::ErrorScale& scale) {
+  return bc6h::pack(bc6h::encode(halves, options, scale).code);
 }
 
 struct Pixels {
@@ -48,7 +48,7 @@ Bc6hBlock encode_bc6h_block(const float rgb[48], const Bc6hOptions& options, std
   int halves[48];
   for (int t = 0; t < 16; ++t)
     bc6h::round_to_halves(rgb + 3 * t, 1, options.is_signed, halves + 3 * t, clipped);
-  return encode_halves(halves, options);
+  return encode_halves(halves, options, *bc6h::error_scale(options.linear_above));
 }
 
 std::size_t bc6h_bytes(int width, int height) { return 16 * blocks_of(width) * blocks_of(height); }
@@ -60,13 +60,14 @@ std::size_t encode_bc6h(std::span<const float> pixels, int width, int height, in
   assert(out.size() == bc6h_bytes(width, height));
   const Pixels image{pixels, width, height, channels, factor};
   const std::size_t across = blocks_of(width);
+  const auto scale = bc6h::error_scale(options.linear_above);
   const auto clipped = parallel_partials<std::size_t>(
       blocks_of(height), 1, [&](std::size_t& partial, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin * across; i < end * across; ++i) {
           int halves[48];
           gather(image, static_cast<int>(i % across), static_cast<int>(i / across), options.is_signed, halves,
                  partial);
-          const Bc6hBlock block = encode_halves(halves, options);
+          const Bc6hBlock block = encode_halves(halves, options, *scale);
           std::memcpy(out.data() + 16 * i, block.data(), 16);
         }
       });

@@ -18,6 +18,9 @@ enum class Bc6hSpeed { fast, normal, high };
 struct Bc6hOptions {
   bool is_signed = false;  ///< SF16 instead of UF16: negative values are kept
   Bc6hSpeed speed = Bc6hSpeed::normal;
+  /// Values (after `factor`) far above this count by their difference instead of by their ratio, so that lamps keep
+  /// their energy; 0: never. See error_scale.h. 16 times the mean is a good choice for light.
+  double linear_above = 0;
 };
 
 using Bc6hBlock = std::array<std::uint8_t, 16>;

@@ -62,8 +62,8 @@ void refine_edge(const EdgeBlock& block, const IntLanes& lanes, Edge& edge) {
     for (int a = std::max(least, first - 1); a <= std::min(most, first + 1); ++a) {
       for (int b = std::max(least, second - 1); b <= std::min(most, second + 1); ++b) {
         const float cost =
-            channel_cost(statistics, unquantise(a, edge.bits, is_signed), unquantise(b, edge.bits, is_signed),
-                         8, block.targets.limit[c], is_signed);
+            channel_cost(block.targets.scale, statistics, unquantise(a, edge.bits, is_signed),
+                         unquantise(b, edge.bits, is_signed), 8, block.targets.limit[c], is_signed);
         if (cost < best) best = cost, edge.ends[0][c] = a, edge.ends[1][c] = b;
       }
     }

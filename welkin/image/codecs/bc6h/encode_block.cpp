@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <welkin/image/codecs/bc6h/quantise.h>
+#include <welkin/image/half.h>
 
 namespace welkin::bc6h {
 namespace {
@@ -149,6 +150,25 @@ Candidate encode(const Targets& targets, Bc6hSpeed speed) {
   }
   refine_single(targets, best, effort.single_rounds);
   return best;
+}
+
+Candidate encode(const int halves[48], const Bc6hOptions& options, const ErrorScale& linear) {
+  const auto logarithmic = error_scale();
+  const Targets plain = make_targets(halves, equal_importance, options.is_signed, logarithmic->values());
+  const Candidate by_logarithm = encode(plain, options.speed);
+  const int brightest = *std::max_element(plain.limit.begin(), plain.limit.end());
+  if (!(options.linear_above > 0) ||
+      static_cast<double>(float_from_half(static_cast<std::uint16_t>(brightest))) <= options.linear_above)
+    return by_logarithm;
+  const Targets targets = make_targets(halves, equal_importance, options.is_signed, linear.values());
+  const Effort effort = effort_of(options.speed);
+  Candidate other = by_logarithm;
+  other.cost = evaluate(targets, other.code);
+  refit(targets, other, effort.refit_rounds);
+  if (effort.pair_rounds > 0) refine_pairs(targets, other, effort.radius, effort.pair_rounds);
+  refine_single(targets, other, std::max(1, effort.single_rounds));
+  const Candidate direct = encode(targets, options.speed);
+  return direct.cost < other.cost ? direct : other;
 }
 
 }  // namespace welkin::bc6h

@@ -22,7 +22,10 @@ constexpr int turns = 4;
 class CubeCoder {
  public:
   CubeCoder(const Cube& cube, float factor, const Bc6hOptions& options)
-      : size_(cube.size), across_((cube.size + 3) / 4), options_(options) {
+      : size_(cube.size),
+        across_((cube.size + 3) / 4),
+        options_(options),
+        scale_(error_scale(options.linear_above)) {
     halves_.resize(static_cast<std::size_t>(6) * size_ * size_ * 3);
     for (std::size_t t = 0; t < halves_.size() / 3; ++t) {
       round_to_halves(cube.texels.data() + t * static_cast<std::size_t>(cube.channels), factor,
@@ -34,7 +37,11 @@ class CubeCoder {
 
   void encode_apart() {
     parallel_for(codes_.size(), 64, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t b = begin; b < end; ++b) codes_[b] = encode(targets_of(b), options_.speed).code;
+      for (std::size_t b = begin; b < end; ++b) {
+        int halves[48];
+        gather(b, halves);
+        codes_[b] = encode(halves, options_, *scale_).code;
+      }
     });
   }
 
@@ -131,7 +138,7 @@ class CubeCoder {
   Targets targets_of(std::size_t block) const {
     int halves[48];
     gather(block, halves);
-    return make_targets(halves, equal_importance, options_.is_signed);
+    return make_targets(halves, equal_importance, options_.is_signed, scale_->values());
   }
 
   void encode_pair(int face, int side, int piece) {
@@ -177,7 +184,8 @@ class CubeCoder {
     int halves[48];
     float importance[16];
     gather(block, halves);
-    const std::array<int, 3> limit = make_targets(halves, equal_importance, options_.is_signed).limit;
+    const std::array<int, 3> limit =
+        make_targets(halves, equal_importance, options_.is_signed, scale_->values()).limit;
     for (int t = 0; t < texel_count; ++t) {
       const std::vector<CubeTexel> meeting = others(texel_of(block, t));
       importance[t] = meeting.empty() ? 1 : towards_others;
@@ -187,7 +195,7 @@ class CubeCoder {
         halves[3 * t + c] = sum / static_cast<int>(meeting.size());
       }
     }
-    Targets targets = make_targets(halves, importance, options_.is_signed);
+    Targets targets = make_targets(halves, importance, options_.is_signed, scale_->values());
     targets.limit = limit;
     return targets;
   }
@@ -198,7 +206,7 @@ class CubeCoder {
     float cost = 0;
     for (int i = 0; i < 48; ++i) {
       const int half = (halves[i] & 0x8000) != 0 ? -(halves[i] & 0x7fff) : halves[i];
-      const float d = error_scale()[half] - targets.level[static_cast<std::size_t>(i % 3)][i / 3];
+      const float d = targets.scale[half] - targets.level[static_cast<std::size_t>(i % 3)][i / 3];
       cost += targets.importance[i / 3] * d * d;
     }
     return cost;
@@ -206,6 +214,7 @@ class CubeCoder {
 
   int size_, across_;
   Bc6hOptions options_;
+  std::shared_ptr<const ErrorScale> scale_;
   std::size_t clipped_ = 0;
   std::vector<int> halves_;
   std::vector<BlockCode> codes_;

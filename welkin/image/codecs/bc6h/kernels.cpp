@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <welkin/image/codecs/bc6h/error_scale.h>
 #include <welkin/parallel/target_clones.h>
 
 namespace welkin::bc6h {
@@ -254,13 +253,13 @@ IndexStatistics index_statistics(const Lanes& level, const Lanes& member, const 
   return {load(count), load(total) / (load(count) + unit_floor)};
 }
 
-WELKIN_TARGET_CLONES float channel_cost(const IndexStatistics& statistics, int first, int second, int levels,
-                                        int limit, bool is_signed) {
+WELKIN_TARGET_CLONES float channel_cost(const float* scale, const IndexStatistics& statistics, int first,
+                                        int second, int levels, int limit, bool is_signed) {
   float palette[16] = {};
   if (levels == 8) {
-    palette_levels<8>(error_scale(), first, second, limit, is_signed, palette);
+    palette_levels<8>(scale, first, second, limit, is_signed, palette);
   } else {
-    palette_levels<16>(error_scale(), first, second, limit, is_signed, palette);
+    palette_levels<16>(scale, first, second, limit, is_signed, palette);
   }
   const Lanes d = load(palette) - statistics.mean;
   return sum(statistics.count * d * d);

@@ -48,8 +48,8 @@ struct IndexStatistics {
 IndexStatistics index_statistics(const Lanes& level, const Lanes& member, const IntLanes& indices);
 
 /// That sum for the ends (first, second) of one channel; `forbidden` and more when an entry in use exceeds `limit`.
-float channel_cost(const IndexStatistics& statistics, int first, int second, int levels, int limit,
-                   bool is_signed);
+float channel_cost(const float* scale, const IndexStatistics& statistics, int first, int second, int levels,
+                   int limit, bool is_signed);
 
 /// 1 for the texels of subset `subset` of a partition, else 0.
 const Lanes& member_of(int partition, int subset);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include <welkin/image/codecs/bc6h/error_scale.h>
 #include <welkin/image/codecs/bc6h/quantise.h>
 
 namespace welkin::bc6h {
@@ -15,7 +14,7 @@ float texel_cost(const Targets& targets, const Ends& ends, int weight, int texel
   float cost = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     const int half = half_of_position(interpolate(ends.first[c], ends.second[c], weight), targets.is_signed);
-    const float d = error_scale()[half] - targets.level[c][texel];
+    const float d = targets.scale[half] - targets.level[c][texel];
     cost += std::abs(half) > targets.limit[c] ? forbidden : d * d;
   }
   return cost * targets.importance[texel];
@@ -62,9 +61,10 @@ void best_pair(const Targets& targets, BlockCode& code, int subset, std::size_t 
     for (int b = std::max(range.low, second - radius); b <= std::min(range.high, second + radius); ++b) {
       code.endpoints[e][c] = a, code.endpoints[e + 1][c] = b;
       if (!channel_fits(code, c)) continue;
-      const float cost = channel_cost(statistics, unquantise(a, mode.endpoint_bits, targets.is_signed),
-                                      unquantise(b, mode.endpoint_bits, targets.is_signed), mode.levels(),
-                                      targets.limit[c], targets.is_signed);
+      const float cost =
+          channel_cost(targets.scale, statistics, unquantise(a, mode.endpoint_bits, targets.is_signed),
+                       unquantise(b, mode.endpoint_bits, targets.is_signed), mode.levels(), targets.limit[c],
+                       targets.is_signed);
       if (cost < best_cost) best_cost = cost, best = {a, b};
     }
   }

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include <welkin/image/codecs/bc6h/error_scale.h>
 #include <welkin/image/half.h>
 
 namespace welkin::bc6h {
@@ -21,8 +20,7 @@ void round_to_halves(const float rgb[3], float factor, bool is_signed, int halve
 
 // A half h comes from all positions i with floor(31 i / 64) = h (signed: 31 |i| / 32), which are ceil(64 h / 31) to
 // ceil(64 (h + 1) / 31) - 1: their middle is the target.
-Targets make_targets(const int halves[48], const float importance[16], bool is_signed) {
-  const float* scale = error_scale();
+Targets make_targets(const int halves[48], const float importance[16], bool is_signed, const float* scale) {
   const int whole = is_signed ? 32 : 64;  // 31 halves take so many positions
   Targets targets{};
   targets.is_signed = is_signed;

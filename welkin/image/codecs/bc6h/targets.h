@@ -13,14 +13,15 @@ struct Targets {
   std::array<Lanes, 3> weight;    // importance times (d level / d position)^2: the error of a small miss
   Lanes importance;               // 1, more for texels whose error counts more
   std::array<int, 3> limit;  // the largest magnitude of each channel, as a half: nothing may decode above it
-  const float* scale = nullptr;  // error_scale()
+  const float* scale = nullptr;  // ErrorScale::values()
   bool is_signed = false;
 };
 
 inline constexpr float equal_importance[16] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 
 /// From 16 texels of halves as sign and magnitude in one integer (no infinities), r g b.
-Targets make_targets(const int halves[48], const float importance[16], bool is_signed);
+/// scale: ErrorScale::values(), must outlive the result.
+Targets make_targets(const int halves[48], const float importance[16], bool is_signed, const float* scale);
 
 /// One texel times `factor` as halves, sign and magnitude in one integer, after saturation; adds to `clipped` how many
 /// channels did not fit.
