@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include <welkin/parallel/parallel_for.h>
@@ -10,11 +11,18 @@
 #include <welkin/sphere/mapping.h>
 #include <welkin/sphere/mat3.h>
 
-// Inside of resample.cpp: the mean of a map, as patches of constant radiance, over the patch of another map's texel.
+// Inside of resample.cpp: the mean of a map, as patches of constant radiance, over the patch of another map's texel, as
+// the weights of the source's texels: they depend on the shapes alone, not on what the map shows.
 
 namespace welkin {
 
 using ChannelSum = std::array<double, 4>;
+
+// How much of texel (x, y) of the source a target texel gets. A list of them may name a texel more than once.
+struct TexelWeight {
+  int x = 0, y = 0;
+  double weight = 0;
+};
 
 // Texels of someone else's image or cube.
 struct MapSource {
@@ -89,13 +97,14 @@ class DensityTable {
   std::vector<float> density_;
 };
 
-// The mean of the source over the patch of a target texel. The patch is a quadrilateral between its corners' images
+// The mean of the source over the patch of a target texel, as weights that add up to 1. The patch is a quadrilateral between its corners' images
 // on the source's grid; where that is a bad picture of it (it crosses a cut, or its edges are curved by more than
 // flat_enough texels) it is quartered, and at the last depth represented by its middle.
 class PatchMean {
  public:
-  PatchMean(const MapSource& source, const DensityTable& density, MapShape target)
-      : source_(source), density_(density), target_(target) {
+  // Only texels of the first `columns` columns will be asked for.
+  PatchMean(const MapSource& source, const DensityTable& density, MapShape target, int columns)
+      : source_(source), density_(density), target_(target), columns_(columns) {
     const double source_texels = static_cast<double>(source.shape.width) * source.shape.height;
     const double ratio = std::sqrt(source_texels / target.width / target.height);
     middle_ = target.mapping == Mapping::dual_paraboloid ? target.height : target.width;
@@ -105,13 +114,14 @@ class PatchMean {
     max_depth_ = 5 + min_depth_ + std::max(0, static_cast<int>(std::ceil(std::log2(ratio))));
   }
 
-  ChannelSum operator()(int x, int y) {
-    sum_ = {};
-    weight_ = 0;
+  // The weights of target texel (x, y), valid until the next call.
+  std::span<TexelWeight> operator()(int x, int y) {
+    weights_.clear();
+    total_ = 0;
     if (min_depth_ > 0 || !add_whole(x, y)) gather(x, y, {0, 0}, 1, 0);
-    if (weight_ <= 0) add_point(source_.point(map_texel_direction(target_, x, y)), 1);
-    for (double& value : sum_) value /= weight_;
-    return sum_;
+    if (total_ <= 0) add_point(source_.point(map_texel_direction(target_, x, y)), 1);
+    for (TexelWeight& w : weights_) w.weight /= total_;
+    return weights_;
   }
 
  private:
@@ -143,9 +153,9 @@ class PatchMean {
 
   void corner_row(int y, double fy, std::vector<MapPoint>& corners) const {
     corners.clear();
-    for (int x = 0; x < target_.width; ++x) {
+    for (int x = 0; x < columns_; ++x) {
       corners.push_back(source_.point(map_texel_direction(target_, x, y, 0, fy)));
-      if (x + 1 == middle_ || x + 1 == target_.width) {
+      if (x + 1 == middle_ || x + 1 == columns_) {
         corners.push_back(source_.point(map_texel_direction(target_, x, y, 1, fy)));
       }
     }
@@ -199,8 +209,8 @@ class PatchMean {
   }
 
   bool add_covered_cells(double solid_angle) {
-    ChannelSum sum{};
-    double weight = 0;
+    const std::size_t first = weights_.size();
+    double covered = 0;
     for (int row = 0; row < coverage_.height(); ++row) {
       const int y = std::min(coverage_.y0() + row, source_.shape.height - 1);
       const auto cells = coverage_.row(row);
@@ -208,24 +218,24 @@ class PatchMean {
         const double area = cells[static_cast<std::size_t>(i)];
         if (area <= 0) continue;
         const int x = column(coverage_.x0() + i);
-        const double w = area * density_.at(x, y);
-        const float* texel = source_.at(x, y);
-        for (int c = 0; c < source_.channels; ++c) sum[static_cast<std::size_t>(c)] += w * texel[c];
-        weight += w;
+        weights_.push_back({x, y, area * density_.at(x, y)});
+        covered += weights_.back().weight;
       }
     }
-    if (!(weight > 0)) return false;
-    for (std::size_t c = 0; c < sum.size(); ++c) sum_[c] += solid_angle / weight * sum[c];
-    weight_ += solid_angle;
+    if (!(covered > 0)) {
+      weights_.resize(first);
+      return false;
+    }
+    for (std::size_t i = first; i < weights_.size(); ++i) weights_[i].weight *= solid_angle / covered;
+    total_ += solid_angle;
     return true;
   }
 
   void add_point(MapPoint point, double solid_angle) {
     const int x = column(static_cast<int>(std::floor(point.x)));
     const int y = std::clamp(static_cast<int>(point.y), 0, source_.shape.height - 1);
-    const float* texel = source_.at(x, y);
-    for (int c = 0; c < source_.channels; ++c) sum_[static_cast<std::size_t>(c)] += solid_angle * texel[c];
-    weight_ += solid_angle;
+    weights_.push_back({x, y, solid_angle});
+    total_ += solid_angle;
   }
 
   int column(int x) const {
@@ -237,12 +247,13 @@ class PatchMean {
   const MapSource& source_;
   const DensityTable& density_;
   MapShape target_;
+  int columns_;
   int middle_, min_depth_, max_depth_;
   int row_ = -2;
   std::vector<MapPoint> above_, below_;
   CellCoverage coverage_;
-  ChannelSum sum_{};
-  double weight_ = 0;
+  std::vector<TexelWeight> weights_;
+  double total_ = 0;
 };
 
 }  // namespace welkin

@@ -4,100 +4,30 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <memory>
-#include <numbers>
 
 #include <welkin/error.h>
 #include <welkin/parallel/parallel_for.h>
-#include <welkin/sphere/direction_index.h>
-#include <welkin/sphere/patch_mean.h>
+#include <welkin/sphere/cube_mirrors.h>
+#include <welkin/sphere/texel_weights.h>
 
 namespace welkin {
 namespace {
 
-// The widest distance (radians) between neighbouring texel centres around a direction, made smooth where the exact
-// figure has kinks (face edges, folds, the rim), because the width of the interpolation kernel follows it.
-double map_spacing(MapShape shape, Vec3 d) {
-  const double n = shape.height;
-  switch (shape.mapping) {
-    case Mapping::equirectangular: return std::numbers::pi * std::max(1.0 / shape.height, 2.0 / shape.width);
-    case Mapping::cube: {
-      const double x2 = d.x * d.x, y2 = d.y * d.y, z2 = d.z * d.z;
-      const double sum8 = x2 * x2 * x2 * x2 + y2 * y2 * y2 * y2 + z2 * z2 * z2 * z2;
-      const double root8 = std::sqrt(std::sqrt(std::sqrt(sum8)));
-      return 2.0 / shape.width * root8 * std::sqrt(root8);  // (x^8 + y^8 + z^8)^(3/16)
-    }
-    case Mapping::dual_paraboloid: return 2 / n * (1 + std::sqrt(d.z * d.z + 0.01));
-    case Mapping::mirror_ball: return 4 / n / std::sqrt((1 + d.z) / 2 + 1 / n);
-    default: {
-      const auto soft = [](double v) { return std::sqrt(v * v + 0.01); };
-      return 2 / n * std::pow(soft(d.x) + soft(d.y) + soft(d.z), 1.5);
-    }
-  }
-}
-
-// The smooth interpolation; false where no texel is within reach.
-bool interpolate(const MapSource& source, const DirectionIndex& index, Vec3 direction, double radius,
-                 ChannelSum& mean) {
-  const float scale = static_cast<float>(1 / (radius * radius));
-  const float dx = static_cast<float>(direction.x), dy = static_cast<float>(direction.y),
-              dz = static_cast<float>(direction.z);
-  ChannelSum sum{};
-  double total = 0;
-  index.visit_near(direction, radius, [&](std::span<const DirectionIndex::Entry> entries) {
-    for (const DirectionIndex::Entry& e : entries) {
-      const float x = e.x - dx, y = e.y - dy, z = e.z - dz;
-      const float rest = 1 - scale * (x * x + y * y + z * z);
-      if (rest <= 0) continue;
-      const double weight = static_cast<double>(rest * rest * rest * e.solid_angle);
-      const float* texel = source.pixels + static_cast<std::size_t>(e.texel) * source.channels;
-      for (int c = 0; c < source.channels; ++c) sum[static_cast<std::size_t>(c)] += weight * texel[c];
-      total += weight;
-    }
-  });
-  if (!(total > 0)) return false;
-  for (std::size_t c = 0; c < sum.size(); ++c) mean[c] = sum[c] / total;
-  return true;
-}
-
-// How much of the interpolation to use: none while the target's texels are wider than 4/5 of the source's, all of it
-// from twice as fine up.
-double smooth_share(const MapSource& source, MapShape target, Vec3 direction) {
-  const double ratio =
-      map_spacing(source.shape, source.from_target * direction) / map_spacing(target, direction);
-  const double t = std::clamp((ratio - 1.25) / 0.75, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-bool any_magnified(const MapSource& source, MapShape target) {
-  for (int y = 0; y < target.height; ++y) {
-    for (int x = 0; x < target.width; x += std::max(1, target.width / 64)) {
-      if (smooth_share(source, target, map_texel_direction(target, x, y)) > 0) return true;
-    }
-  }
-  return false;
-}
-
-void resample_rows(const MapSource& source, const DensityTable& density, const DirectionIndex* index,
-                   int begin, int end, SphereMap& result) {
-  constexpr double kernel_radius = 1.7;
-  const MapShape target = result.shape();
-  PatchMean patch_mean(source, density, target);
+void resample_rows(const ResampleGeometry& geometry, int begin, int end, SphereMap& result) {
+  const MapSource& source = geometry.source();
+  const MapShape target = geometry.target();
+  TexelWeights weights(geometry, target.width);
   for (int y = begin; y < end; ++y) {
     for (int x = 0; x < target.width; ++x) {
       if (!map_covers(target, x, y) && map_texel_solid_angle(target, x, y) <= 0) continue;
-      const Vec3 direction = map_texel_direction(target, x, y);
-      double share = index != nullptr ? smooth_share(source, target, direction) : 0;
-      ChannelSum smooth{};
-      const Vec3 wanted = source.from_target * direction;
-      const double radius = kernel_radius * map_spacing(source.shape, wanted);
-      if (share > 0 && !interpolate(source, *index, wanted, radius, smooth)) share = 0;
-      const ChannelSum box = share < 1 ? patch_mean(x, y) : ChannelSum{};
-      float* texel = result.image.at(x, y);
-      for (int c = 0; c < source.channels; ++c) {
-        const auto k = static_cast<std::size_t>(c);
-        texel[c] = static_cast<float>(box[k] + share * (smooth[k] - box[k]));
+      ChannelSum sum{};
+      for (const TexelWeight& w : weights(x, y)) {
+        const float* texel = source.at(w.x, w.y);
+        for (int c = 0; c < source.channels; ++c) sum[static_cast<std::size_t>(c)] += w.weight * texel[c];
       }
+      float* texel = result.image.at(x, y);
+      for (int c = 0; c < source.channels; ++c)
+        texel[c] = static_cast<float>(sum[static_cast<std::size_t>(c)]);
     }
   }
 }
@@ -164,12 +94,14 @@ SphereMap resample(MapSource source, MapShape target, const ResampleOptions& opt
     if (report != nullptr) report->raw_energy_ratio.assign(static_cast<std::size_t>(source.channels), 1.0);
     return result;
   }
-  const DensityTable density(from);
-  std::unique_ptr<DirectionIndex> index;
-  if (options.interpolate && any_magnified(source, target)) index = std::make_unique<DirectionIndex>(from);
-  parallel_for(static_cast<std::size_t>(target.height), 4, [&](std::size_t begin, std::size_t end) {
-    resample_rows(source, density, index.get(), static_cast<int>(begin), static_cast<int>(end), result);
-  });
+  const ResampleGeometry geometry(source, target, options.interpolate);
+  if (has_mirrors(from, target) && is_identity(options.orientation)) {
+    resample_mirrored(geometry, result);
+  } else {
+    parallel_for(static_cast<std::size_t>(target.height), 4, [&](std::size_t begin, std::size_t end) {
+      resample_rows(geometry, static_cast<int>(begin), static_cast<int>(end), result);
+    });
+  }
   if (options.keep_energy || report != nullptr) {
     put_energy_back(energy(source), result, options.keep_energy, report);
   }
