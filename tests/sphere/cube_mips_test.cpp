@@ -41,5 +41,26 @@ TEST(CubeMips, TwoByTwoIsAPlainMean) {
   EXPECT_FLOAT_EQ(build_mips(cube).levels[1].at(4, 0, 0)[0], 1.5f);
 }
 
+// By the solid angles of the four texels, one by one; rounding of values below 2 to float.
+TEST(CubeMips, AnEvenLevelIsTheMeanOfFourTexels) {
+  Cube cube(12);
+  std::mt19937 random(8);
+  for (float& value : cube.texels) value = static_cast<float>(random() % 1000) / 500;
+  const CubeMips mips = build_mips(cube);
+  for (int face = 0; face < 6; ++face) {
+    for (int k = 0; k < 36; ++k) {
+      const int x = k % 6, y = k / 6;
+      double sum = 0, total = 0;
+      for (int i = 0; i < 4; ++i) {
+        const double weight =
+            map_texel_solid_angle(map_shape(Mapping::cube, 12), 2 * x + i % 2, 2 * y + i / 2);
+        sum += weight * cube.at(face, 2 * x + i % 2, 2 * y + i / 2)[2];
+        total += weight;
+      }
+      EXPECT_NEAR(mips.levels[1].at(face, x, y)[2], sum / total, 1.3e-7);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace welkin

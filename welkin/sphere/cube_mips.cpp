@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <welkin/parallel/parallel_for.h>
+#include <welkin/sphere/mapping.h>
 
 namespace welkin {
 namespace {
@@ -58,6 +59,29 @@ void reduce_row(const Cube& fine, Cube& coarse, int y) {
   }
 }
 
+// The same for an even fine size, where a coarse texel is four fine ones: a fine row's solid angles share their corners.
+void reduce_even_row(const Cube& fine, Cube& coarse, int y) {
+  const MapShape shape = map_shape(Mapping::cube, fine.size);
+  std::vector<double> upper, lower;
+  map_row_solid_angles(shape, 2 * y, upper);
+  map_row_solid_angles(shape, 2 * y + 1, lower);
+  for (int x = 0; x < coarse.size; ++x) {
+    const auto left = static_cast<std::size_t>(2 * x);
+    const double weight[4] = {upper[left], upper[left + 1], lower[left], lower[left + 1]};
+    const double scale = 1 / (weight[0] + weight[1] + weight[2] + weight[3]);
+    for (int face = 0; face < 6; ++face) {
+      const float* a = fine.at(face, 2 * x, 2 * y);
+      const float* b = fine.at(face, 2 * x, 2 * y + 1);
+      float* out = coarse.at(face, x, y);
+      for (int c = 0; c < fine.channels; ++c) {
+        const double sum = weight[0] * a[c] + weight[1] * a[c + fine.channels] + weight[2] * b[c] +
+                           weight[3] * b[c + fine.channels];
+        out[c] = static_cast<float>(scale * sum);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 CubeMips build_mips(Cube cube, int levels) {
@@ -69,7 +93,9 @@ CubeMips build_mips(Cube cube, int levels) {
     const Cube& fine = mips.levels.back();
     Cube coarse(size, fine.channels);
     parallel_for(static_cast<std::size_t>(size), 4, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t y = begin; y < end; ++y) reduce_row(fine, coarse, static_cast<int>(y));
+      for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+        fine.size % 2 == 0 ? reduce_even_row(fine, coarse, y) : reduce_row(fine, coarse, y);
+      }
     });
     mips.levels.push_back(std::move(coarse));
   }

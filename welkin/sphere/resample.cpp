@@ -7,6 +7,7 @@
 
 #include <welkin/error.h>
 #include <welkin/parallel/parallel_for.h>
+#include <welkin/parallel/target_clones.h>
 #include <welkin/sphere/cube_mirrors.h>
 #include <welkin/sphere/texel_weights.h>
 
@@ -32,18 +33,44 @@ void resample_rows(const ResampleGeometry& geometry, int begin, int end, SphereM
   }
 }
 
+// Sums of the samples with equal index modulo `lanes`, a multiple of every number of channels: 24 chains of additions
+// that the compiler lays side by side.
+constexpr std::size_t lanes = 24;
+
+WELKIN_TARGET_CLONES
+void add_samples(const float* samples, std::size_t count, double* sums) {
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    for (std::size_t k = 0; k < lanes; ++k) sums[k] += static_cast<double>(samples[i + k]);
+  }
+  for (std::size_t k = 0; i < count; ++i, ++k) sums[k] += static_cast<double>(samples[i]);
+}
+
+// A row of an equirectangular map, where all texels have the same solid angle.
+void add_equal_row(const MapSource& source, int y, ChannelSum& sum) {
+  double sums[lanes] = {};
+  const auto channels = static_cast<std::size_t>(source.channels);
+  add_samples(source.at(0, y), static_cast<std::size_t>(source.shape.width) * channels, sums);
+  const double solid_angle = map_texel_solid_angle(source.shape, 0, y);
+  for (std::size_t k = 0; k < lanes; ++k) sum[k % channels] += solid_angle * sums[k];
+}
+
+void add_row(const MapSource& source, int y, std::vector<double>& solid_angles, ChannelSum& sum) {
+  map_row_solid_angles(source.shape, y, solid_angles);
+  for (int x = 0; x < source.shape.width; ++x) {
+    const double solid_angle = solid_angles[static_cast<std::size_t>(x)];
+    for (int c = 0; c < source.channels; ++c)
+      sum[static_cast<std::size_t>(c)] += solid_angle * source.at(x, y)[c];
+  }
+}
+
 std::vector<double> energy(const MapSource& source) {
   std::vector<double> total(static_cast<std::size_t>(source.channels));
+  const bool equal_rows = source.shape.mapping == Mapping::equirectangular;
   const auto add_rows = [&](ChannelSum& sum, std::size_t begin, std::size_t end) {
     std::vector<double> solid_angles;
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      map_row_solid_angles(source.shape, y, solid_angles);
-      for (int x = 0; x < source.shape.width; ++x) {
-        const double solid_angle = solid_angles[static_cast<std::size_t>(x)];
-        for (int c = 0; c < source.channels; ++c) {
-          sum[static_cast<std::size_t>(c)] += solid_angle * source.at(x, y)[c];
-        }
-      }
+      equal_rows ? add_equal_row(source, y, sum) : add_row(source, y, solid_angles, sum);
     }
   };
   for (const ChannelSum& part :
@@ -65,7 +92,9 @@ void put_energy_back(const std::vector<double>& wanted, SphereMap& map, bool app
   }
   const std::size_t row = static_cast<std::size_t>(map.image.width) * wanted.size();
   parallel_for(static_cast<std::size_t>(map.image.height), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin * row; i < end * row; ++i) map.image.pixels[i] *= factor[i % wanted.size()];
+    for (std::size_t i = begin * row; i < end * row; i += wanted.size()) {
+      for (std::size_t c = 0; c < wanted.size(); ++c) map.image.pixels[i + c] *= factor[c];
+    }
   });
 }
 
