@@ -55,8 +55,7 @@ void add_equal_row(const MapSource& source, int y, ChannelSum& sum) {
   for (std::size_t k = 0; k < lanes; ++k) sum[k % channels] += solid_angle * sums[k];
 }
 
-void add_row(const MapSource& source, int y, std::vector<double>& solid_angles, ChannelSum& sum) {
-  map_row_solid_angles(source.shape, y, solid_angles);
+void add_row(const MapSource& source, int y, const std::vector<double>& solid_angles, ChannelSum& sum) {
   for (int x = 0; x < source.shape.width; ++x) {
     const double solid_angle = solid_angles[static_cast<std::size_t>(x)];
     for (int c = 0; c < source.channels; ++c)
@@ -67,14 +66,21 @@ void add_row(const MapSource& source, int y, std::vector<double>& solid_angles, 
 std::vector<double> energy(const MapSource& source) {
   std::vector<double> total(static_cast<std::size_t>(source.channels));
   const bool equal_rows = source.shape.mapping == Mapping::equirectangular;
+  const int period = source.shape.mapping == Mapping::cube ? source.shape.width : source.shape.height;
   const auto add_rows = [&](ChannelSum& sum, std::size_t begin, std::size_t end) {
     std::vector<double> solid_angles;
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      equal_rows ? add_equal_row(source, y, sum) : add_row(source, y, solid_angles, sum);
+      if (equal_rows) {
+        add_equal_row(source, y, sum);
+        continue;
+      }
+      map_row_solid_angles(source.shape, y, solid_angles);
+      for (int same = y; same < source.shape.height; same += period)  // each face of a cube
+        add_row(source, same, solid_angles, sum);
     }
   };
   for (const ChannelSum& part :
-       parallel_partials<ChannelSum>(static_cast<std::size_t>(source.shape.height), 16, add_rows)) {
+       parallel_partials<ChannelSum>(static_cast<std::size_t>(period), 16, add_rows)) {
     for (std::size_t c = 0; c < total.size(); ++c) total[c] += part[c];
   }
   return total;

@@ -144,15 +144,16 @@ double octahedral_box(Box box) {
   return sum;
 }
 
-// cube_texel_solid_angle for a row, with each of its corners evaluated once for the two texels that meet there.
+// cube_texel_solid_angle for a row, with each of its corners evaluated once for the two texels that meet there, and for
+// their mirror images in the right half.
 void cube_row(int size, int y, std::vector<double>& out) {
   const auto corner = [](double s, double t) { return std::atan2(s * t, std::sqrt(1 + s * s + t * t)); };
   const double t0 = 2.0 * y / size - 1, t1 = 2.0 * (y + 1) / size - 1;
   double before = corner(-1, t1) - corner(-1, t0);
-  for (int x = 0; x < size; ++x) {
+  for (int x = 0; x < (size + 1) / 2; ++x) {
     const double s = 2.0 * (x + 1) / size - 1;
     const double after = corner(s, t1) - corner(s, t0);
-    out[static_cast<std::size_t>(x)] = after - before;
+    out[static_cast<std::size_t>(x)] = out[static_cast<std::size_t>(size - 1 - x)] = after - before;
     before = after;
   }
 }
