@@ -14,6 +14,8 @@
 // faces, seams and poles: twice differentiable across all of them, never outside the range of its neighbours, never
 // negative. In between the two are blended by the local ratio of texel sizes. Equal mapping, size and orientation is a copy.
 //
+// Fastest from an equirectangular map, whose width 4 divides, to a cube as it stands (cube_mirrors.h).
+//
 // A constant stays constant to float rounding. Overlap and interpolation lose or gain a little energy (the kernel
 // mostly, and texels that straddle a cut); it is put back by one factor per channel, close to 1.
 
