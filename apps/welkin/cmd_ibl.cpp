@@ -1,12 +1,9 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -22,6 +19,7 @@
 #include "json_text.h"
 #include "light_options.h"
 #include "lights_json.h"
+#include "output_folder.h"
 #include "progress.h"
 #include "source_name.h"
 #include "texture_options.h"
@@ -118,34 +116,6 @@ void print_files(const std::vector<IblFile>& files) {
 
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
-// A folder that is made where it is missing, with its parents, and goes again, as long as it is empty, unless kept.
-class NewFolder {
- public:
-  explicit NewFolder(const std::filesystem::path& path) {
-    std::error_code error;
-    std::filesystem::path missing = std::filesystem::absolute(path).lexically_normal();
-    for (; !std::filesystem::exists(missing, error) && missing.has_relative_path();
-         missing = missing.parent_path())
-      made_.push_back(missing);
-    error.clear();
-    std::filesystem::create_directories(path, error);
-    if (!error) return;
-    remove();
-    throw Error(path.string(), "cannot make this folder: " + error.message());
-  }
-  ~NewFolder() { remove(); }
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
-  void keep() { made_.clear(); }
-
- private:
-  void remove() {
-    std::error_code ignored;
-    for (const std::filesystem::path& path : made_) std::filesystem::remove(path, ignored);
-  }
-  std::vector<std::filesystem::path> made_;  // innermost first
-};
-
 // All files of the set, written only when everything is made; `out` may hold others that belong with it.
 void write_set(const std::filesystem::path& directory, std::vector<IblFile>& files,
                const nlohmann::ordered_json& manifest, const std::string& input,
@@ -164,22 +134,6 @@ void write_set(const std::filesystem::path& directory, std::vector<IblFile>& fil
   NewFolder folder(directory);
   write_files(out);
   folder.keep();
-}
-
-// The set's folder, or the nearest that exists above it, must be one that can be written to.
-void check_folder(const std::string& output) {
-  std::error_code error;
-  std::filesystem::path nearest = std::filesystem::absolute(output).lexically_normal();
-  const bool there = std::filesystem::exists(nearest, error);
-  if (there && !std::filesystem::is_directory(nearest, error))
-    throw Error(output, "is a file; the set needs a folder");
-  while (!std::filesystem::exists(nearest, error) && nearest.has_relative_path())
-    nearest = nearest.parent_path();
-  if (!std::filesystem::is_directory(nearest, error))
-    throw Error(output, "cannot make this folder: " + nearest.string() + " is a file");
-  if (::access(nearest.c_str(), W_OK | X_OK) != 0)
-    throw Error(output, std::string(there ? "cannot write to" : "cannot make") +
-                            " this folder: " + std::strerror(errno));
 }
 
 // What would fail only after all the work.

@@ -6,6 +6,7 @@
 
 namespace welkin {
 
+void add_brdf_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_filter_command(CLI::App& app);

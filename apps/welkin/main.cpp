@@ -70,6 +70,7 @@ int main(int argc, char** argv) {
   welkin::add_convert_command(app);
   welkin::add_compare_command(app);
   welkin::add_reflect_command(app);
+  welkin::add_brdf_command(app);
   welkin::add_sh_command(app);
   welkin::add_sky_command(app);
   try {

@@ -18,7 +18,9 @@ PreparedReflection with_stack(LobeStack prepared) {
   return {[stack](const ReflectionQuery& query) { return reflect(*stack, query); },
           fmt::format("{} views, {} cube{}, fit within {:.1f} to {:.0f} %", stack->view_angles.size(),
                       stack->cubes.size(), stack->cubes.size() == 1 ? "" : "s",
-                      100 * stack->fit_errors.front(), 100 * worst)};
+                      100 * stack->fit_errors.front(), 100 * worst),
+          {},
+          [stack] { return stack_files(*stack); }};
 }
 
 }  // namespace
@@ -45,7 +47,9 @@ PreparedReflection prepare_lafortune_method(const ReflectInput& input) {
   const auto stack = std::make_shared<const LafortuneStack>(prepare_lafortune_stack(input.radiance));
   return {[stack, brdf](const ReflectionQuery& query) { return reflect(*stack, brdf, query); },
           fmt::format("phong exponents {:g} to 0 in {} levels", stack->exponents.front(),
-                      stack->exponents.size())};
+                      stack->exponents.size()),
+          [stack, brdf](const TangentQuery& query) { return reflect(*stack, brdf, query); },
+          [stack] { return stack_files(*stack); }};
 }
 
 }  // namespace welkin

@@ -74,12 +74,12 @@ PreparedReflection prepare_fresnel_blend_method(const ReflectInput& input) {
 
 const std::vector<ReflectMethod>& reflect_methods() {
   static const std::vector<ReflectMethod> methods{
-      {"lobes", "a lobe per view elevation, Kautz & McCool 2000", prepare_lobes_method},
-      {"lobes-2", "the same, two lobes", prepare_two_lobes_method},
-      {"lobes-published", "the same, one, the cosine outside of the integral",
-       prepare_published_lobes_method},
-      {"single-lobe", "one lobe scaled and turned, the same", prepare_single_lobe_method},
-      {"lafortune", "lafortune:... alone, McAllister et al. 2002", prepare_lafortune_method},
+      {"lobes", "a lobe per view elevation, Kautz & McCool 2000", prepare_lobes_method, true},
+      {"lobes-2", "the same, two lobes", prepare_two_lobes_method, true},
+      {"lobes-published", "the same, one, the cosine outside of the integral", prepare_published_lobes_method,
+       true},
+      {"single-lobe", "one lobe scaled and turned, the same", prepare_single_lobe_method, true},
+      {"lafortune", "lafortune:... alone, McAllister et al. 2002", prepare_lafortune_method, true},
       {"shrm", "spherical-harmonic reflection map within --error-bound, Ramamoorthi & Hanrahan 2002",
        prepare_shrm_method},
       {"low-frequency", "light of degree 4, Kautz, Sloan & Snyder 2002", prepare_low_frequency_method},
@@ -88,6 +88,13 @@ const std::vector<ReflectMethod>& reflect_methods() {
       {"fresnel-blend", "irradiance and Phong maps mixed by Fresnel (fresnel-blend)",
        prepare_fresnel_blend_method}};
   return methods;
+}
+
+PreparedReflection prepare(const ReflectMethod& method, const ReflectInput& input) {
+  if (input.anisotropic && method.name != "lafortune")
+    throw Error(fmt::format("{}: is for isotropic BRDFs (CX = CY); choose --method lafortune or brute",
+                            input.brdf_spec));
+  return method.prepare(input);
 }
 
 const ReflectMethod& find_reflect_method(std::string_view name) {
