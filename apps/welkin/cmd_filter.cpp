@@ -159,6 +159,7 @@ void add_filter_command(CLI::App& app) {
       ->capture_default_str();
   sub->add_option("--scale", command->scale,
                   "Multiplies everything; 3.14159265 with --kernel lambert is irradiance")
+      ->check(must_be_finite)
       ->check(CLI::Range(1e-30, 1e30))
       ->capture_default_str();
   sub->add_option("-o,--output", command->output, "File to write: .ktx2, .dds, .exr, .hdr or .png")

@@ -239,6 +239,7 @@ void add_reflect_command(CLI::App& app) {
       ->capture_default_str();
   sub->add_option("--error-bound", command->error_bound,
                   "Relative RMS error that shrm chooses its orders for")
+      ->check(must_be_finite)
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
   sub->add_flag("--verify", command->verify, "Print errors against brute force over all normals and views");

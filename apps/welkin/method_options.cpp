@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "environment_options.h"
+
 namespace welkin {
 namespace {
 
@@ -30,6 +32,7 @@ void add_planar_options(CLI::App& sub, FilterMethodOptions& options, const std::
          "--border", set_border,
          "bordered, paraboloid: how far a picture goes on beyond its edge, in widths "
          "of a face or radii (default: as far as the kernel reaches)")
+      ->check(must_be_finite)
       ->check(CLI::Range(0.0, 3.0))
       ->group(group);
   sub.add_flag("--square", options.bordered.box,
@@ -38,6 +41,7 @@ void add_planar_options(CLI::App& sub, FilterMethodOptions& options, const std::
   sub.add_flag("--solid-angles", options.bordered.solid_angles, "bordered: texels weighed by solid angle")
       ->group(group);
   sub.add_option("--box-bias", options.box.bias, "box: the mip level (default: fitted to the kernel)")
+      ->check(must_be_finite)
       ->check(CLI::Range(0.0, 16.0))
       ->group(group);
   sub.add_option("--taps", options.quick.taps, "quick: look-ups a texel")
@@ -52,6 +56,7 @@ void add_importance_options(CLI::App& sub, ImportanceOptions& options, const std
       ->capture_default_str()
       ->group(group);
   sub.add_option("--level-bias", options.level_bias, "importance: added to the mip level")
+      ->check(must_be_finite)
       ->check(CLI::Range(-16.0, 16.0))
       ->capture_default_str()
       ->group(group);
@@ -65,16 +70,19 @@ void add_method_options(CLI::App& sub, FilterMethodOptions& options) {
   const std::string group = "Methods";
   sub.add_option("--detail", options.hierarchical.detail,
                  "hierarchical: nodes of the pyramid per scale of the kernel")
+      ->check(must_be_finite)
       ->check(CLI::Range(0.5, 64.0))
       ->capture_default_str()
       ->group(group);
   sub.add_option("--cut", options.angular.cut_energy, "angular: the share of the lobe that is cut off")
+      ->check(must_be_finite)
       ->check(CLI::Range(1e-9, 0.5))
       ->capture_default_str()
       ->group(group);
   add_planar_options(sub, options, group);
   add_importance_options(sub, options.importance, group);
   sub.add_option("--tolerance", options.frequency.tolerance, "frequency: error aimed at, of the map's mean")
+      ->check(must_be_finite)
       ->check(CLI::Range(1e-6, 0.1))
       ->capture_default_str()
       ->group(group);

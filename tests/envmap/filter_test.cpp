@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -184,6 +185,18 @@ TEST(BrightTexels, AreNeverMoreThanAskedFor) {
   const BrightSplit split = split_bright_texels(map, options);
   EXPECT_LE(split.texels.size(), 25u);
   EXPECT_GE(split.texels.size(), 16u);  // ties at the threshold stay in the map
+}
+
+// In an odd cube a texel looks at the pole, where the map's texels are wedges, many times longer than the kernel is wide.
+// What is left of 1 is the quadrature's 1e-8 and rounding to float.
+TEST(Filter, TheNarrowestKernelsKeepAConstantMapAtThePoles) {
+  Image map(64, 32);
+  std::fill(map.pixels.begin(), map.pixels.end(), 1.0f);
+  for (const ZonalKernel& kernel :
+       {make_gaussian_kernel(1e-4), make_ggx_kernel(1e-4), make_phong_kernel(1e7)}) {
+    const Cube cube = filter_environment(map, std::vector<FilterTarget>{{kernel, 3, 1.0}}, {}, nullptr)[0];
+    for (const float value : cube.texels) ASSERT_NEAR(value, 1, 1e-6) << describe(kernel);
+  }
 }
 
 }  // namespace

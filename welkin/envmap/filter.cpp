@@ -50,6 +50,10 @@ Cube gather(const FilterTarget& target, const KernelPlan& plan, const SphereGrid
   return cube;
 }
 
+// A kernel that no degree within reach follows, as a table with a spike beside the axis, is not held to the tolerance: its
+// grid stays below 2 GiB.
+constexpr int most_rows_beyond_bound = 8192;
+
 struct Plan {
   BrightSplit map;
   std::vector<KernelPlan> kernels;
@@ -106,7 +110,8 @@ std::vector<Cube> filter_environment(const Image& radiance, std::span<const Filt
     const Stopwatch level_time;
     KernelPlan& kernel = plan.kernels[i];
     const double largest_error = options.tolerance / 3 * targets[i].scale * plan.map.mean;
-    const SynthesisPlan synthesis = plan_synthesis(kernel.factors, power, largest_error);
+    SynthesisPlan synthesis = plan_synthesis(kernel.factors, power, largest_error);
+    if (!kernel.bound_met) synthesis.grid_rows = std::min(synthesis.grid_rows, most_rows_beyond_bound);
     kernel.factors.resize(synthesis.degree + 1);
     const SphereGrid grid =
         synthesize(convolve(spectrum, kernel.factors), synthesis.grid_rows, 2 * synthesis.grid_rows);

@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::size_t most_knots = 100000;
 constexpr std::size_t largest_file = std::size_t{16} << 20;
+constexpr double largest_value = 1e30, closest_angles = 1e-12;
+constexpr double narrowest = 1e-4;  // radians, as of the kernels in closed form
 
 // Fritsch & Carlson 1980 with the weighted harmonic mean of Fritsch & Butland 1984: no slope where the values turn, so
 // the cubic between two knots is monotone.
@@ -31,6 +33,13 @@ std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vec
     slopes[i] = (a + b) / (a / secants[i - 1] + b / secants[i]);
   }
   return slopes;
+}
+
+// Of the rectangle that is as high as the table's largest value, and has its area.
+double equivalent_width(std::span<const double> x, std::span<const double> y) {
+  double area = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) area += 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]);
+  return area / *std::max_element(y.begin(), y.end());
 }
 
 bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r'; }
@@ -65,15 +74,17 @@ KernelTable make_kernel_table(std::span<const double> angles_radians, std::span<
   if (values.size() < 2 || values.size() > most_knots)
     throw Error(fmt::format("a kernel table needs 2 to {} lines, not {}", most_knots, values.size()));
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i == 0 ? angles_radians[0] != 0 : !(angles_radians[i] > angles_radians[i - 1]))
+    if (i == 0 ? angles_radians[0] != 0 : !(angles_radians[i] > angles_radians[i - 1] + closest_angles))
       throw Error("the angles of a kernel table must rise from 0, each larger than the one before");
-    if (!(values[i] >= 0 && std::isfinite(values[i])))
-      throw Error("the values of a kernel table must be finite and not negative");
+    if (!(values[i] >= 0 && values[i] <= largest_value))
+      throw Error("the values of a kernel table must lie in [0, 1e30]");
   }
   if (angles_radians.back() > std::numbers::pi * (1 + 1e-12))
     throw Error("the angles of a kernel table must not exceed 180 degrees");
   if (*std::max_element(values.begin(), values.end()) < 1e-30)
     throw Error("a kernel table must not be all zero");
+  if (equivalent_width(angles_radians, values) < narrowest)
+    throw Error("the kernel of this table is narrower than 0.0001 radians");
   KernelTable table{{angles_radians.begin(), angles_radians.end()}, {values.begin(), values.end()}, {}};
   table.slopes = monotone_slopes(table.angles, table.values);
   return table;

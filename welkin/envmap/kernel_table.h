@@ -15,8 +15,9 @@ struct KernelTable {
   double evaluate(double angle) const;
 };
 
-/// Throws Error unless there are 2 to 100,000 knots, the angles rise strictly from 0 to at most pi, and the values are
-/// finite, >= 0 and not all 0. The curve is made flat at angle 0, as a smooth lobe is on its axis.
+/// Throws Error unless there are 2 to 100,000 knots, the angles rise from 0 to at most pi by more than 1e-12 each, the
+/// values lie in [0, 1e30] and not all below 1e-30, and the area under the straight lines through them is at least that of
+/// a rectangle 1e-4 wide and as high as the largest. The curve is made flat at angle 0, as a smooth lobe is on its axis.
 KernelTable make_kernel_table(std::span<const double> angles_radians, std::span<const double> values);
 
 /// The same from text: a line for each knot with the angle in degrees and the value, separated by spaces, a tab, a comma or a

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <welkin/sampling/quadrature.h>
 
@@ -120,6 +121,19 @@ double integrate_across_end(const ZonalKernel& kernel, Vec3 axis, const SpherePa
   return sum;
 }
 
+// In two or in four. A patch more than twice as long as wide is cut across: quartered, the wedges at a pole would double
+// in number from one step to the next.
+std::vector<SpherePatch> parts_of(const SpherePatch& p) {
+  const double theta = 0.5 * (p.theta0 + p.theta1), phi = 0.5 * (p.phi0 + p.phi1);
+  const double high = p.theta1 - p.theta0, wide = (p.phi1 - p.phi0) * std::sin(theta);
+  if (high > 2 * wide) return {{p.theta0, theta, p.phi0, p.phi1}, {theta, p.theta1, p.phi0, p.phi1}};
+  if (wide > 2 * high) return {{p.theta0, p.theta1, p.phi0, phi}, {p.theta0, p.theta1, phi, p.phi1}};
+  return {{p.theta0, theta, p.phi0, phi},
+          {theta, p.theta1, p.phi0, phi},
+          {p.theta0, theta, phi, p.phi1},
+          {theta, p.theta1, phi, p.phi1}};
+}
+
 }  // namespace
 
 SpherePatch equirect_patch(int width, int height, int x, int y) {
@@ -140,6 +154,7 @@ double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SphereP
       std::max(0.5 * (patch.theta1 - patch.theta0), 0.5 * (patch.phi1 - patch.phi0) * std::sin(theta));
   const double to_centre = length(direction_of(theta, phi) - direction);
   const double distance = std::max(0.0, to_centre - std::numbers::sqrt2 * half);
+  if (near_angle > 0 && distance >= near_angle) return 0;  // the window ends before it
   const bool across_end = std::abs(1 - 0.5 * to_centre * to_centre) < 1.6 * half;
   if (across_end && near_angle == 0 && kink_slope(kernel) > steep_kink && angular_width(kernel) > half)
     return integrate_across_end(kernel, direction, patch);
@@ -148,13 +163,8 @@ double integrate_kernel(const ZonalKernel& kernel, Vec3 direction, const SphereP
   const int nodes = patch_nodes(std::min(window, std::hypot(distance, angular_width(kernel))), half);
   if (nodes <= max_nodes) return integrate_with_nodes(kernel, direction, patch, near_angle, nodes);
   double sum = 0;
-  for (int quarter = 0; quarter < 4; ++quarter) {
-    const bool lower = quarter & 1, right = quarter & 2;
-    sum += integrate_kernel(kernel, direction,
-                            {lower ? theta : patch.theta0, lower ? patch.theta1 : theta,
-                             right ? phi : patch.phi0, right ? patch.phi1 : phi},
-                            near_angle);
-  }
+  for (const SpherePatch& part : parts_of(patch))
+    sum += integrate_kernel(kernel, direction, part, near_angle);
   return sum;
 }
 

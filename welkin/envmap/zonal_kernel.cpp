@@ -78,14 +78,15 @@ double next_break(const ZonalKernel& kernel, double from, double end) {
   return next == angles.end() ? end : std::min(end, *next);
 }
 
-// The steepest slope of a lobe over its largest value is exp(-1/2) / sigma for a Gaussian.
+// The steepest slope of a lobe over its largest value is exp(-1/2) / sigma for a Gaussian. No wider than the table: a disc
+// has no slope.
 double table_width(const KernelTable& table) {
   const double largest = *std::max_element(table.values.begin(), table.values.end());
   double steepest = 1e-300;
   for (std::size_t i = 1; i < table.angles.size(); ++i)
     steepest = std::max(
         steepest, std::abs(table.values[i] - table.values[i - 1]) / (table.angles[i] - table.angles[i - 1]));
-  return std::clamp(std::exp(-0.5) * largest / steepest, 1e-4, 1.0);
+  return std::clamp(std::min(std::exp(-0.5) * largest / steepest, table.angles.back()), 1e-4, 1.0);
 }
 
 // Of a table that ends, or turns to zero, at 90 degrees: minus its slope just before.
