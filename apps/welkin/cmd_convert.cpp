@@ -53,7 +53,8 @@ void check_output(const ConvertCommand& command) {
   if (writes_six(command) || !is_texture(command.output)) check_flat_name(command.output);
   if (writes_six(command) && !command.layout.empty() && command.layout != "six")
     throw CLI::ValidationError("--layout", "a %s in the output's name writes six files");
-  if (is_texture(command.output)) check_container(command.texture, extension_of(command.output).substr(1));
+  const std::string extension = extension_of(command.output).substr(1);
+  if (is_texture(command.output) || extension == "exr") check_container(command.texture, extension);
   if (command.mips && (!is_texture(command.output) || !command.layout.empty()))
     throw CLI::ValidationError("--mips", "only cubes in .ktx2 and .dds have levels");
 }
@@ -212,22 +213,24 @@ void save_texture(const ConvertCommand& command, const Texture& texture) {
   }
 }
 
+bool is_single(const ConvertCommand& command) { return command.texture.format == "rgba32f"; }
+
 // All six appear, or none.
-void save_six(const std::string& pattern, const Cube& cube) {
+void save_six(const std::string& pattern, const Cube& cube, bool single) {
   const auto names = face_file_names(pattern, FaceNames::short_signs);
   const auto faces = cube_faces(cube);
   std::vector<OutputFile> files;
-  for (std::size_t i = 0; i < 6; ++i) files.push_back({names[i], encode_flat(names[i], faces[i])});
+  for (std::size_t i = 0; i < 6; ++i) files.push_back({names[i], encode_flat(names[i], faces[i], single)});
   write_files(files);
 }
 
 void save_flat(const ConvertCommand& command, const Image& image) {
   if (is_texture(command.output)) return save_texture(command, image);
-  write_file(command.output, encode_flat(command.output, image));
+  write_file(command.output, encode_flat(command.output, image, is_single(command)));
 }
 
 void save_cube(const ConvertCommand& command, Cube cube) {
-  if (writes_six(command)) return save_six(command.output, cube);
+  if (writes_six(command)) return save_six(command.output, cube, is_single(command));
   if (command.layout.empty() && is_texture(command.output))
     return save_texture(command, build_mips(std::move(cube), command.mips ? 0 : 1));
   const std::string name = command.layout.empty() ? "hcross" : command.layout;

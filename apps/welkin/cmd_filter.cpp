@@ -62,7 +62,9 @@ Filtered filter(const FilterCommand& command, const Image& radiance, const Filte
                 FilterMethod method) {
   ProgressLine progress("filtering, " + std::string(filter_method_name(method)));
   FilterMethodOptions options = command.options;
-  options.brute.progress = options.frequency.progress = [&](double share) { progress.show(share); };
+  const auto show = [&](double share) { progress.show(share); };
+  options.brute.progress = options.frequency.progress = show;
+  options.angular.progress = options.hierarchical.progress = show;
   const auto start = std::chrono::steady_clock::now();
   Filtered result{filter_by_method(radiance, target, method, options), 0};
   result.milliseconds =

@@ -231,15 +231,16 @@ void run(IblCommand command) {
 
   const Taken taken = take_lights(environment, command.lights);
   const Image& radiance = taken.lights ? taken.lights->residual : environment.radiance;
-  ProgressLine progress("filtering " + environment.source);
-  options.filter.progress = [&](double share) { progress.show(command.verify ? 0.3 * share : share); };
+  std::optional<ProgressLine> progress(std::in_place, "filtering " + environment.source);
+  options.filter.progress = [&](double share) { progress->show(command.verify ? 0.3 * share : share); };
   const IblSet set = make_ibl(radiance, options);
   std::optional<IblErrors> errors;
   if (command.verify) {
     VerifyOptions verify = command.verify_options;
-    verify.progress = [&](double share) { progress.show(0.3 + 0.7 * share); };
+    verify.progress = [&](double share) { progress->show(0.3 + 0.7 * share); };
     errors = verify_ibl(set, radiance, options, verify);
   }
+  progress.reset();  // its line would run into what is printed from here on
   for (std::size_t k = 1; k < set.levels.size(); ++k)
     if (!set.levels[k].report.bound_met)
       fmt::print(

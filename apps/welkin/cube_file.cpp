@@ -44,7 +44,7 @@ void check_cube_name(const std::string& path) {
 void write_cube_file(const std::string& path, const Cube& cube, const CubeFileOptions& options) {
   if (!is_texture(path)) {
     const Image image = cube_to_layout(cube, cube_layout_from_name(options.layout).value());
-    return write_file(path, encode_flat(path, image));
+    return write_file(path, encode_flat(path, image, options.format == "rgba32f"));
   }
   CubeMips one_level;
   one_level.levels.push_back(cube);

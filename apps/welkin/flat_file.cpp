@@ -28,9 +28,9 @@ std::vector<std::uint8_t> encode_radiance(const std::string& path, const Image& 
   return encode_hdr(image);
 }
 
-std::vector<std::uint8_t> encode_openexr(const Image& image) {
+std::vector<std::uint8_t> encode_openexr(const Image& image, bool single) {
   const bool half =
-      largest_storable(image.pixels, PixelFormat::rgba32f) <= pixel_format_max(PixelFormat::rgba16f);
+      !single && largest_storable(image.pixels, PixelFormat::rgba32f) <= pixel_format_max(PixelFormat::rgba16f);
   return encode_exr(image, {half ? ExrPixelType::half_float : ExrPixelType::single_float, 1});
 }
 
@@ -66,11 +66,11 @@ void check_flat_name(const std::string& path) {
     throw Error(path, "flat images are written as .hdr, .exr or .png; give the file one of these endings");
 }
 
-std::vector<std::uint8_t> encode_flat(const std::string& path, const Image& image) {
+std::vector<std::uint8_t> encode_flat(const std::string& path, const Image& image, bool single) {
   check_flat_name(path);
   const std::string extension = extension_of(path);
   if (is_radiance(extension)) return encode_radiance(path, image);
-  return extension == ".exr" ? encode_openexr(image) : encode_png(tone_map(image));
+  return extension == ".exr" ? encode_openexr(image, single) : encode_png(tone_map(image));
 }
 
 }  // namespace welkin

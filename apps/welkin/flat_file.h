@@ -12,9 +12,9 @@ namespace welkin {
 void check_flat_name(const std::string& path);
 
 /// A flat image in the format that the extension of `path` names: .hdr, .exr or .png (tone-mapped, for looking at).
-/// OpenEXR gets half floats, and single ones when a value is beyond what half floats hold. Says on standard error
+/// OpenEXR gets half floats, and single ones where `single` asks for them or a value is beyond what half floats hold. Says on standard error
 /// what .hdr cannot hold (negative values).
-std::vector<std::uint8_t> encode_flat(const std::string& path, const Image& image);
+std::vector<std::uint8_t> encode_flat(const std::string& path, const Image& image, bool single = false);
 
 /// load_image, or make_sky where the name is a sky ("sky:day,elevation=20").
 LoadedImage load_file_or_sky(const std::string& name);

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include <welkin/envmap/filter.h>
 
 namespace welkin {
@@ -8,6 +10,8 @@ struct AngularOptions {
   double cut_energy = 1e-3;
   /// The edge of the source cube, 1 to 4096; 0: as fine as the map (matching_cube_size).
   int source_size = 0;
+  /// Told the share done, in [0, 1], from the calling thread.
+  std::function<void(double)> progress{};
 };
 
 /// Angular extent with a cut-off (ATI's CubeMapGen: Isidoro & Mitchell 2005): the map as a cube; the lobe ends at the angle beyond which

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include <welkin/envmap/filter.h>
 
 namespace welkin {
@@ -7,6 +9,8 @@ struct HierarchicalOptions {
   /// Nodes of the pyramid per scale of the kernel: a node of half size h is taken whole where `detail` * h is no more
   /// than hypot(angular_width, distance from the axis). 0.5 to 64.
   double detail = 4;
+  /// Told the share done, in [0, 1], from the calling thread.
+  std::function<void(double)> progress{};
 };
 
 /// Coarser source for wider parts of the lobe (Kautz, Vazquez, Heidrich & Seidel 2000): a pyramid of the map, each node the
