@@ -29,8 +29,8 @@ std::vector<std::uint8_t> encode_radiance(const std::string& path, const Image& 
 }
 
 std::vector<std::uint8_t> encode_openexr(const Image& image, bool single) {
-  const bool half =
-      !single && largest_storable(image.pixels, PixelFormat::rgba32f) <= pixel_format_max(PixelFormat::rgba16f);
+  const bool half = !single && largest_storable(image.pixels, PixelFormat::rgba32f) <=
+                                   pixel_format_max(PixelFormat::rgba16f);
   return encode_exr(image, {half ? ExrPixelType::half_float : ExrPixelType::single_float, 1});
 }
 

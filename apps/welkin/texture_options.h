@@ -40,8 +40,8 @@ inline void check_container(const TextureInput& in, const std::string& container
   const bool plain =
       layout.component == PixelLayout::Component::half || layout.component == PixelLayout::Component::float32;
   if (container == "exr" && !plain)
-    throw CLI::ValidationError(
-        "--format", "OpenEXR has no " + in.format + "; choose rgba16f or rgba32f, or write KTX2");
+    throw CLI::ValidationError("--format",
+                               "OpenEXR has no " + in.format + "; choose rgba16f or rgba32f, or write KTX2");
   if (container == "dds" && layout.component == PixelLayout::Component::astc_hdr)
     throw CLI::ValidationError("--format", "DDS has no " + in.format + "; choose bc6h, or ktx2");
 }

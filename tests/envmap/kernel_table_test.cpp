@@ -107,12 +107,12 @@ std::string complaint(const char* text) {
 // nodes that all miss it.
 TEST(KernelTable, RefusesWhatNumbersCannotCarry) {
   const std::string narrow = "lobe.csv: the kernel of this table is narrower than 0.0001 radians";
-  EXPECT_EQ(complaint("0 1\n0.005 1\n"), narrow);
+  EXPECT_EQ(complaint("0 1\n0.005 1\n0.0051 0\n"), narrow);
   EXPECT_EQ(complaint("0 0\n45 0\n45.0000001 1\n45.0000002 0\n"), narrow);
   EXPECT_EQ(complaint("0 0\n179.999999 0\n180 1\n"), narrow);
   EXPECT_EQ(complaint("0 1e308\n90 0\n"), "lobe.csv: the values of a kernel table must lie in [0, 1e30]");
   EXPECT_NE(complaint("0 1\n1e-310 0\n90 0\n"), "");
-  EXPECT_EQ(complaint("0 1e30\n90 1e-30\n"), "");
+  EXPECT_EQ(complaint("0 1e30\n90 1e-30\n91 0\n"), "");
   EXPECT_EQ(complaint("0 1\n30 1\n30.0000001 0\n"), "");  // a cap is not narrow, steep as its end is
 }
 
@@ -132,6 +132,10 @@ TEST(KernelTable, NamesWhatIsWrong) {
   EXPECT_EQ(complaint("0 0\n10 0\n"), "lobe.csv: a kernel table must not be all zero");
   EXPECT_EQ(complaint("0 1\n10 nan\n"), "lobe.csv: the values of a kernel table must lie in [0, 1e30]");
   EXPECT_EQ(complaint("0 1\n10 -1\n"), "lobe.csv: the values of a kernel table must lie in [0, 1e30]");
+  EXPECT_EQ(complaint("0 1\n10 1\n"),
+            "lobe.csv: the last value must be 0 (or stand at 180 degrees): a lobe with a hard edge cannot be "
+            "integrated well");
+  EXPECT_EQ(complaint("0 1\n180 1\n"), "");
   for (const char* unordered : {"5 1\n10 1\n", "0 1\n20 1\n10 1\n", "0 1\nnan 1\n", "0 1\n0 2\n"})
     EXPECT_NE(complaint(unordered), "") << unordered;
 }

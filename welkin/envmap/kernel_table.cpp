@@ -107,6 +107,11 @@ KernelTable parse_kernel_table(std::string_view text, std::string_view name) {
     values.push_back(value);
     if (angles.size() > most_knots) throw Error(fmt::format("{}: more than {} lines", name, most_knots));
   }
+  if (!values.empty() && values.back() > 0 && angles.back() < std::numbers::pi * (1 - 1e-9))
+    throw Error(
+        fmt::format("{}: the last value must be 0 (or stand at 180 degrees): a lobe with a hard edge cannot "
+                    "be integrated well",
+                    name));
   try {
     return make_kernel_table(angles, values);
   } catch (const Error& error) {

@@ -21,7 +21,8 @@ struct KernelTable {
 KernelTable make_kernel_table(std::span<const double> angles_radians, std::span<const double> values);
 
 /// The same from text: a line for each knot with the angle in degrees and the value, separated by spaces, a tab, a comma or a
-/// semicolon; empty lines and what follows # are skipped. Throws Error "NAME, line N: ..." .
+/// semicolon; empty lines and what follows # are skipped. The last value must be
+/// 0 unless it stands at 180 degrees: texels that a hard edge cuts are not integrated well. Throws Error "NAME, line N: ..." .
 KernelTable parse_kernel_table(std::string_view text, std::string_view name);
 
 /// The same from a file of at most 16 MiB. Throws Error when it cannot be read.

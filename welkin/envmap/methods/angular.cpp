@@ -135,8 +135,8 @@ Cube filter_angular(const Image& radiance, const FilterTarget& target, const Ang
   const Cube source = equirect_to_cube(
       radiance, options.source_size > 0 ? options.source_size : matching_cube_size(radiance));
   const CapSum cap(source, target.kernel, KernelQuantiles(target.kernel).angle_with_tail(options.cut_energy));
-  return cube_from_directions(target, [&](Vec3 direction, double* rgb) { cap(direction, rgb); },
-                              options.progress);
+  return cube_from_directions(
+      target, [&](Vec3 direction, double* rgb) { cap(direction, rgb); }, options.progress);
 }
 
 }  // namespace welkin

@@ -89,8 +89,8 @@ Cube filter_hierarchical(const Image& radiance, const FilterTarget& target,
   if (!(options.detail >= 0.5 && options.detail <= 64)) throw Error("hierarchical: detail is 0.5 to 64");
   const MapPyramid pyramid(radiance);
   const LobeSum lobe(pyramid, target.kernel, options.detail);
-  return cube_from_directions(target, [&](Vec3 direction, double* rgb) { lobe(direction, rgb); },
-                              options.progress);
+  return cube_from_directions(
+      target, [&](Vec3 direction, double* rgb) { lobe(direction, rgb); }, options.progress);
 }
 
 }  // namespace welkin
