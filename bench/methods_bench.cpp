@@ -57,7 +57,11 @@ double stated_rms(FilterMethod method) {
     case FilterMethod::angular: return 0.1;
     case FilterMethod::hierarchical: return 0.3;
     case FilterMethod::importance: return 0.5;
-    default: return 10;
+    case FilterMethod::bordered: return 2;
+    case FilterMethod::box: return 1.5;
+    case FilterMethod::paraboloid: return 0.6;
+    case FilterMethod::quick: return 0.3;
+    default: return 1;
   }
 }
 
