@@ -8,6 +8,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 find_package(hwy REQUIRED)
+find_package(embree 3 REQUIRED)
 find_path(ASTCENC_INCLUDE_DIR astcenc.h REQUIRED)
 find_library(ASTCENC_LIBRARY astcenc REQUIRED)
 # The Debian package has no CMake files. Its header declares what a shared library exports only with this definition.

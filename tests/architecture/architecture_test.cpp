@@ -21,13 +21,14 @@ const fs::path root = WELKIN_SOURCE_DIR;
 // Module -> the modules that it may use directly; it may also use what those may use.
 const std::map<std::string, std::set<std::string>> may_use = {
     {"parallel", {}},
+    {"geometry", {}},
     {"image", {"parallel"}},
-    {"sampling", {"parallel"}},
+    {"sampling", {"parallel", "geometry"}},
     {"sphere", {"image", "sampling"}},
     {"sh", {"sphere"}},
     {"brdf", {"image", "sampling"}},
     {"envmap", {"sh", "brdf", "sphere"}},
-    {"scene", {"image"}},
+    {"scene", {"image", "geometry"}},
     {"raytrace", {"scene"}},
     {"pathtrace", {"raytrace", "envmap"}},
     {"bake", {"pathtrace", "raytrace", "sh", "envmap"}},
@@ -51,7 +52,10 @@ const std::vector<Confined> confined = {
     {"libpng", std::regex("(libpng[0-9]*/)?png.*\\.h"), std::regex("welkin/image/codecs/png[^/]*\\.cpp")},
     {"TurboJPEG", std::regex("(turbojpeg|jpeglib|jerror)\\.h"),
      std::regex("welkin/image/codecs/jpeg[^/]*\\.cpp")},
-    {"nlohmann-json", std::regex("nlohmann/.*"), std::regex("welkin/sh/forms/json_form\\.cpp|apps/.*")},
+    {"nlohmann-json", std::regex("nlohmann/.*"),
+     std::regex("welkin/sh/forms/json_form\\.cpp|welkin/scene/gltf[^/]*\\.cpp|apps/.*")},
+    {"Embree", std::regex("embree.*"), std::regex("welkin/raytrace/[^/]*\\.cpp")},
+    {"tinygltf", std::regex("tiny_gltf\\.h"), std::regex("welkin/scene/gltf[^/]*\\.cpp")},
     {"astcenc", std::regex("astcenc\\.h"), std::regex("welkin/image/codecs/astc[^/]*\\.cpp")},
     {"Highway", std::regex("hwy/.*"), std::regex("welkin/.*\\.cpp")},
     {"Eigen", std::regex("Eigen/.*"), std::regex("welkin/.*\\.cpp")},
@@ -187,6 +191,10 @@ TEST(Architecture, RulesRefuseAndAllowWhatTheyShould) {
   EXPECT_TRUE(refused("welkin/image/codecs/ktx2_read.cpp", "astcenc.h"));
   EXPECT_TRUE(refused("welkin/sh/transform.h", "hwy/highway.h"));
   EXPECT_TRUE(refused("apps/welkin/main.cpp", "Eigen/Dense"));
+  EXPECT_TRUE(refused("welkin/raytrace/ray_scene.h", "embree3/rtcore.h"));
+  EXPECT_TRUE(refused("welkin/pathtrace/path.cpp", "embree3/rtcore.h"));
+  EXPECT_TRUE(refused("welkin/scene/obj.cpp", "nlohmann/json.hpp"));
+  EXPECT_TRUE(refused("welkin/geometry/affine.h", "welkin/sphere/vec3.h"));
   EXPECT_TRUE(refused("welkin/sh/forms/json_form.h", "nlohmann/json.hpp"));
   EXPECT_TRUE(refused("welkin/sh/forms/read_form.cpp", "nlohmann/json.hpp"));
 
@@ -203,6 +211,9 @@ TEST(Architecture, RulesRefuseAndAllowWhatTheyShould) {
   EXPECT_FALSE(refused("welkin/brdf/fit.cpp", "Eigen/Dense"));
   EXPECT_FALSE(refused("welkin/sh/transform.cpp", "kissfft/kissfft.hh"));
   EXPECT_FALSE(refused("apps/welkin/ibl.cpp", "welkin/envmap/filter.h"));
+  EXPECT_FALSE(refused("welkin/raytrace/ray_scene.cpp", "embree3/rtcore.h"));
+  EXPECT_FALSE(refused("welkin/scene/gltf_read.cpp", "nlohmann/json.hpp"));
+  EXPECT_FALSE(refused("welkin/brdf/a.h", "welkin/geometry/frame.h"));  // through sampling
 }
 
 TEST(Architecture, EveryIncludeFollowsTheTable) {

@@ -1,0 +1,63 @@
+#pragma once
+#include <memory>
+
+#include <welkin/geometry/vec3f.h>
+#include <welkin/image/image.h>
+#include <welkin/image/rgb.h>
+
+namespace welkin {
+
+/// What the density of samples is proportional to.
+enum class EnvironmentDensity {
+  luminance_solid_angle,  ///< luminance x the texel's solid angle: the sphere's own density, the default
+  luminance,  ///< luminance alone: samples the image as if it were flat; right, and noisier (poles)
+};
+
+/// How a texel is found.
+enum class EnvironmentTable {
+  inverse,       ///< CDF of rows, then of the row's columns, by bisection: monotone, keeps stratification
+  alias,         ///< one look-up (Walker 1977, Vose 1991); scatters neighbouring numbers
+  hierarchical,  ///< a quadtree of quantised splits: monotone, a quarter of the memory of `inverse`
+};
+
+/// What the radiance between texel centres is.
+enum class EnvironmentInterpolation { box, bilinear };
+
+struct EnvironmentSamplerOptions {
+  EnvironmentDensity density = EnvironmentDensity::luminance_solid_angle;
+  EnvironmentTable table = EnvironmentTable::inverse;
+  EnvironmentInterpolation interpolation = EnvironmentInterpolation::box;
+};
+
+struct EnvironmentSample {
+  Vec3f direction;  ///< world, unit
+  Rgb radiance;     ///< of the environment there
+  float pdf = 0;    ///< per steradian, > 0; 0: the environment is black and there is no sample
+};
+
+/// Directions towards an environment with a density that follows its radiance: the 2-D inverse transform over a
+/// piecewise constant density (Pharr, Jakob & Humphreys 2016, section 13.6.7), in three kinds of tables.
+/// sample, pdf and inverse belong together: pdf is exactly the density of sample (per steradian; integrates to 1), above 0
+/// wherever radiance is, and inverse(sample(u).direction) is u but for rounding (not for alias). Immutable, thread-safe.
+class EnvironmentSampler {
+ public:
+  /// radiance: equirectangular, 3 channels, finite and >= 0; it is copied. Throws Error otherwise.
+  explicit EnvironmentSampler(Image radiance, const EnvironmentSamplerOptions& options = {});
+  ~EnvironmentSampler();
+  EnvironmentSampler(EnvironmentSampler&&) noexcept;
+  EnvironmentSampler& operator=(EnvironmentSampler&&) noexcept;
+
+  EnvironmentSample sample(Vec2f u) const;  ///< u in [0, 1)^2
+  float pdf(Vec3f direction) const;         ///< per steradian
+  Vec2f inverse(Vec3f direction) const;     ///< the u that gives this direction; not for alias (throws Error)
+  Rgb radiance(Vec3f direction) const;      ///< as options.interpolation says
+  EnvironmentSample at(Vec3f direction) const;  ///< radiance and pdf at once, cheaper
+  double mean_luminance() const;                ///< over the sphere
+  std::size_t table_bytes() const;              ///< of the tables, without the map itself
+
+ private:
+  struct Tables;
+  std::unique_ptr<Tables> tables_;
+};
+
+}  // namespace welkin

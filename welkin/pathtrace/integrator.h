@@ -1,0 +1,74 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include <welkin/envmap/importance/environment_sampler.h>
+#include <welkin/image/rgb.h>
+#include <welkin/raytrace/ray_scene.h>
+#include <welkin/scene/scene.h>
+
+// One sample of one pixel: what every integrator computes. Independent of threads, tiles and of all other samples, so
+// that pictures can be stopped, resumed and spread with the same bytes.
+
+namespace welkin {
+
+enum class Integrator { direct, path, ambient_occlusion, image_based };
+
+/// How light is looked for at a surface.
+enum class LightSampling {
+  bsdf,   ///< along the BRDF's samples only
+  light,  ///< at the environment and the lights only; what mirrors show is still found by their one direction
+  mis,    ///< both, weighted by multiple importance sampling (Veach & Guibas 1995)
+  product,  ///< directions by BRDF times environment, with the other two by MIS
+};
+
+enum class MisHeuristic { balance, power };  // power: exponent 2
+
+struct IntegratorOptions {
+  Integrator integrator = Integrator::path;
+  LightSampling sampling = LightSampling::mis;
+  MisHeuristic heuristic = MisHeuristic::power;
+  int max_bounces = 64;              ///< reflections after the first surface; path only; 0 is direct light
+  int roulette_bounce = 4;           ///< from which on Russian roulette may end paths
+  float occlusion_distance = 1e30f;  ///< ambient_occlusion: how far a ray looks, metres
+  int occlusion_rays = 1;            ///< per sample, >= 1
+  float clamp_indirect = 0;          ///< largest radiance of an indirect contribution; 0: no clamp, unbiased
+  bool show_environment = true;      ///< behind the scene; else black, coverage says where
+  std::uint32_t seed = 0;
+};
+
+struct PixelSample {
+  Rgb radiance;
+  Rgb albedo;          ///< of the first surface; the environment and emitters give 0
+  Vec3f normal;        ///< shading normal there, world; (0, 0, 0) for none
+  float depth = 0;     ///< distance along the view axis, metres; 0 for none
+  float coverage = 0;  ///< 1 where a surface was met
+};
+
+/// What sampling needs of a scene, made once: rays, tables of lights and materials. Immutable, thread-safe.
+class RenderScene {
+ public:
+  /// environment: nothing for a black one. Both are kept alive by the caller. Throws Error naming the scene for one
+  /// without anything that could be seen.
+  RenderScene(const Scene& scene, const EnvironmentSampler* environment);
+  ~RenderScene();
+  RenderScene(RenderScene&&) noexcept;
+  RenderScene& operator=(RenderScene&&) noexcept;
+
+  struct Tables;
+  const Tables& tables() const { return *tables_; }
+
+ private:
+  std::unique_ptr<Tables> tables_;
+};
+
+struct PictureSize {
+  int width = 0, height = 0;
+};
+
+/// Sample `index` of pixel (x, y), (0, 0) at the top left, somewhere in the pixel (box filter).
+PixelSample render_sample(const RenderScene& scene, const Camera& camera, PictureSize size, int x, int y,
+                          std::uint32_t index, const IntegratorOptions& options);
+
+}  // namespace welkin
