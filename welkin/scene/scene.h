@@ -114,6 +114,7 @@ struct Camera {
   Affine to_world;                           ///< looks along -z, y up, x right; no scale
   float vertical_field_radians = 0.7f;       ///< perspective
   std::optional<float> orthographic_height;  ///< metres; set: orthographic
+  std::optional<float> width_over_height;    ///< of the picture that it was framed for
 };
 
 struct Scene {
@@ -129,11 +130,12 @@ struct Scene {
 };
 
 /// Throws Error naming scene.source for the first thing that a renderer could trip over: an index out of range, an
-/// attribute of the wrong length, a value that is not finite, a parameter out of its range. Importers return scenes
-/// that pass.
+/// attribute of the wrong length, a value that is not finite, a parameter out of its range, an instance without volume,
+/// a world coordinate beyond 1e12 metres. Degenerate triangles pass. Importers return scenes that pass.
 void check_scene(const Scene& scene);
 
-/// Corners of the smallest box around everything, world; nothing for a scene without geometry.
+/// Corners of a box around everything, world; the smallest one, but for rotated instances of a mesh that has several:
+/// they count with their mesh's box. Nothing for a scene without geometry.
 struct Bounds {
   Vec3f low, high;
 };
