@@ -1,0 +1,194 @@
+#include <welkin/brdf/scatter/layers.h>
+
+#include <cmath>
+
+namespace welkin::scatter_detail {
+namespace {
+
+constexpr Rgb white{1, 1, 1};
+
+Rgb mixed(Rgb a, Rgb b, float t) { return (1 - t) * a + t * b; }
+
+float multiple_colour(float fresnel, float average) {
+  return fresnel * fresnel * average / (1 - fresnel * (1 - average));
+}
+
+Rgb multiple_colour(Rgb fresnel, float average) {
+  return {multiple_colour(fresnel.r, average), multiple_colour(fresnel.g, average),
+          multiple_colour(fresnel.b, average)};
+}
+
+Rgb average_schlick(Rgb f0, Rgb f90) { return f0 + (1.0f / 21) * (f90 - f0); }
+
+Rgb facet_fresnel(const Layers& layers, float cosine) {
+  if (layers.conductor) return fresnel_conductor(cosine, layers.eta, layers.k);
+  return mixed(layers.f0, layers.f90, schlick_weight(cosine));
+}
+
+bool has_base(const Scatter& scatter) {
+  return scatter.model == ScatterModel::coated_diffuse || scatter.model == ScatterModel::metallic_roughness;
+}
+
+// Facets and the colours of their Fresnel term.
+Layers bare_layers(const Scatter& scatter, Vec3f view) {
+  Layers layers;
+  layers.conductor = scatter.model == ScatterModel::ggx_conductor;
+  layers.smooth = scatter.model == ScatterModel::coated_diffuse && scatter.alpha_x <= 0;
+  const float alpha_y = scatter.model == ScatterModel::coated_diffuse ? scatter.alpha_x : scatter.alpha_y;
+  layers.facets = microfacet_view(view, scatter.alpha_x, alpha_y);
+  layers.alpha = std::sqrt(layers.facets.alpha_x * layers.facets.alpha_y);
+  layers.eta = scatter.eta;
+  layers.k = scatter.k;
+  layers.f0 = has_base(scatter) ? scatter.f0 * white : scatter.color;
+  layers.f90 = scatter.f90 * white;
+  if (scatter.model == ScatterModel::metallic_roughness) {
+    layers.f0 = mixed(layers.f0, scatter.color, scatter.metallic);
+    layers.f90 = mixed(layers.f90, white, scatter.metallic);
+  }
+  return layers;
+}
+
+// A table over perceptual roughness has no anisotropic energies: compensation with it could reflect more than arrives.
+bool compensates(const Scatter& scatter, const Layers& layers) {
+  return scatter.compensated && !layers.smooth &&
+         (layers.facets.alpha_x == layers.facets.alpha_y || (scatter.energy && scatter.energy->by_azimuth));
+}
+
+Energy energy_of(const Layers& layers, Vec3f direction) {
+  if (!layers.smooth) return look_up_energy(*layers.table, direction, layers.alpha);
+  const float weight = schlick_weight(direction.z);
+  return {1 - weight, weight};
+}
+
+struct Balance {
+  Energy view;
+  EnergyAverage average;
+  float white = 1, average_white = 1;  // E(v), E_avg of white facets
+};
+
+Balance balance_of(const Layers& layers) {
+  Balance b;
+  b.view = energy_of(layers, layers.facets.view);
+  b.average =
+      layers.smooth ? EnergyAverage{20.0f / 21, 1.0f / 21, 1} : look_up_average(*layers.table, layers.alpha);
+  b.white = std::min(1.0f, b.view.scale + b.view.bias);
+  b.average_white = std::min(1 - 1e-6f, b.average.scale + b.average.bias);
+  return b;
+}
+
+// What the facets reflect; for a conductor with F of the view, which is right but for wide lobes.
+Rgb facets_albedo(const Layers& layers, const Balance& b) {
+  if (layers.conductor) return b.white * fresnel_conductor(layers.facets.view.z, layers.eta, layers.k);
+  return b.view.scale * layers.f0 + b.view.bias * layers.f90;
+}
+
+// k(F) of the facets. Dielectric and metal of metallic_roughness are mixed, so that both being white is white.
+Rgb multiple_of(const Scatter& scatter, const Layers& layers, const Balance& b) {
+  if (layers.conductor)
+    return multiple_colour(average_fresnel_conductor(layers.eta, layers.k), b.average_white);
+  if (scatter.model != ScatterModel::metallic_roughness)
+    return multiple_colour(average_schlick(layers.f0, layers.f90), b.average_white);
+  const Rgb dielectric =
+      multiple_colour(average_schlick(scatter.f0 * white, scatter.f90 * white), b.average_white);
+  return mixed(dielectric, multiple_colour(average_schlick(scatter.color, white), b.average_white),
+               scatter.metallic);
+}
+
+CoatEnergy coat_of(const Scatter& scatter, const Balance& b, bool compensated) {
+  if (!compensated) return {scatter.f0, scatter.f90, 0};
+  const float average = scatter.f0 + (scatter.f90 - scatter.f0) / 21;
+  const float k = multiple_colour(average, b.average_white);
+  return {scatter.f0 - k, scatter.f90 - k, k};
+}
+
+}  // namespace
+
+Layers make_layers(const Scatter& scatter, Vec3f view) {
+  Layers layers = bare_layers(scatter, view);
+  const bool compensated = compensates(scatter, layers);
+  const bool base = has_base(scatter);
+  if (!compensated && !base) return layers;
+  layers.table = scatter.energy ? scatter.energy : &ggx_energy_table();
+  const Balance b = balance_of(layers);
+  const Rgb facets = facets_albedo(layers, b);
+  float m_multiple = 0, m_diffuse = 0;
+  layers.albedo = facets;
+  if (compensated) {
+    const Rgb reflected = (1 - b.white) * multiple_of(scatter, layers, b);
+    layers.multiple = (1 / (pi * (1 - b.average_white))) * reflected;
+    layers.spread = b.average.spread;
+    layers.albedo += reflected;
+    m_multiple = max_channel(reflected);
+  }
+  if (base) {
+    layers.coat = coat_of(scatter, b, compensated);
+    const float metal = scatter.model == ScatterModel::metallic_roughness ? scatter.metallic : 0;
+    const float passed = std::max(0.0f, 1 - layers.coat(b.view));
+    const float average = layers.coat({b.average.scale, b.average.bias});
+    const Rgb reflected = ((1 - metal) * passed) * scatter.color;
+    layers.diffuse = average < 1 ? (1 / (pi * (1 - average))) * reflected : Rgb{};
+    layers.albedo += reflected;
+    m_diffuse = average < 1 ? max_channel(reflected) : 0;
+  }
+  const float m_facets = max_channel(facets), sum = m_facets + m_multiple + m_diffuse;
+  if (!(sum > 0)) return layers;
+  layers.p_multiple = m_multiple / sum;
+  layers.p_diffuse = m_diffuse / sum;
+  layers.p_facets = m_facets / sum;
+  return layers;
+}
+
+Rgb layers_albedo(const Scatter& scatter, Vec3f view) {
+  Layers layers = make_layers(scatter, view);
+  if (!layers.table) {
+    layers.table = scatter.energy ? scatter.energy : &ggx_energy_table();
+    layers.albedo = facets_albedo(layers, balance_of(layers));
+  }
+  return layers.albedo;
+}
+
+ScatterValue layers_value(const Layers& layers, Vec3f light) {
+  ScatterValue result;
+  if (!layers.smooth) {
+    const Facet facet = facet_of(layers.facets, light);
+    result.value =
+        reflected_share(layers.facets, light, facet.distribution) * facet_fresnel(layers, facet.cosine);
+    result.pdf = layers.p_facets * microfacet_pdf(layers.facets, facet.distribution);
+  }
+  if (!layers.table) return result;
+  const Energy energy = energy_of(layers, light);
+  if (layers.p_multiple > 0) {
+    const float lost = std::max(0.0f, 1 - energy.scale - energy.bias);
+    result.value += (lost * light.z) * layers.multiple;
+    result.pdf += layers.p_multiple * lost_pdf(layers.spread, light.z);
+  }
+  if (layers.p_diffuse > 0) {
+    result.value += (std::max(0.0f, 1 - layers.coat(energy)) * light.z) * layers.diffuse;
+    result.pdf += layers.p_diffuse * light.z / pi;
+  }
+  return result;
+}
+
+ScatterSample sample_layers(const Layers& layers, Vec2f u, float lobe) {
+  ScatterSample result;
+  if (lobe < layers.p_facets) {
+    const Vec3f view = layers.facets.view;
+    if (layers.smooth) {
+      const Rgb fresnel = facet_fresnel(layers, view.z);
+      return {{-view.x, -view.y, view.z}, (1 / layers.p_facets) * fresnel, INFINITY};
+    }
+    result.light = sample_microfacet(layers.facets, u);
+  } else if (lobe < layers.p_facets + layers.p_multiple) {
+    result.light = sample_lost(layers.spread, u);
+  } else {
+    result.light = sample_cosine(u);
+  }
+  if (!(result.light.z > 0)) return {};
+  const ScatterValue value = layers_value(layers, result.light);
+  if (!(value.pdf > 0)) return {};
+  result.pdf = value.pdf;
+  result.weight = (1 / value.pdf) * value.value;
+  return result;
+}
+
+}  // namespace welkin::scatter_detail
