@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 
 #include <welkin/geometry/vec3f.h>
@@ -27,6 +28,8 @@ struct EnvironmentSamplerOptions {
   EnvironmentDensity density = EnvironmentDensity::luminance_solid_angle;
   EnvironmentTable table = EnvironmentTable::inverse;
   EnvironmentInterpolation interpolation = EnvironmentInterpolation::box;
+  /// What luminance is made of, each > 0: Rec. 709; {0.2989, 0.5866, 0.1145} are the older weights of many demonstrations.
+  std::array<float, 3> luminance_weights{0.2126f, 0.7152f, 0.0722f};
 };
 
 struct EnvironmentSample {
@@ -41,7 +44,8 @@ struct EnvironmentSample {
 /// wherever radiance is, and inverse(sample(u).direction) is u but for rounding (not for alias). Immutable, thread-safe.
 class EnvironmentSampler {
  public:
-  /// radiance: equirectangular, 3 channels, finite and >= 0; it is copied. Throws Error otherwise.
+  /// radiance: equirectangular, 3 channels, at most 65,536 each way, finite and >= 0. Throws Error otherwise. What is
+  /// below 1e-30 counts as black.
   explicit EnvironmentSampler(Image radiance, const EnvironmentSamplerOptions& options = {});
   ~EnvironmentSampler();
   EnvironmentSampler(EnvironmentSampler&&) noexcept;
@@ -49,8 +53,9 @@ class EnvironmentSampler {
 
   EnvironmentSample sample(Vec2f u) const;  ///< u in [0, 1)^2
   float pdf(Vec3f direction) const;         ///< per steradian
-  Vec2f inverse(Vec3f direction) const;     ///< the u that gives this direction; not for alias (throws Error)
-  Rgb radiance(Vec3f direction) const;      ///< as options.interpolation says
+  /// The u that gives this direction. Throws Error for alias and for bilinear, where several give it.
+  Vec2f inverse(Vec3f direction) const;
+  Rgb radiance(Vec3f direction) const;          ///< as options.interpolation says
   EnvironmentSample at(Vec3f direction) const;  ///< radiance and pdf at once, cheaper
   double mean_luminance() const;                ///< over the sphere
   std::size_t table_bytes() const;              ///< of the tables, without the map itself
