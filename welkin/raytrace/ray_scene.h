@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <welkin/geometry/vec3f.h>
 #include <welkin/scene/scene.h>
@@ -25,12 +26,26 @@ struct Hit {
   float u = 0, v = 0;          ///< barycentric: p = (1 - u - v) p0 + u p1 + v p2; unused for a sphere
 };
 
+/// An instance as the rays see it: what surface_at needs of it.
+struct PlacedMesh {
+  const Mesh* mesh = nullptr;
+  const Vec3f* positions = nullptr;  ///< in the world where `in_world`, else the mesh's own
+  Affine to_world;
+  bool in_world = false;      ///< the tree has this mesh's triangles in the world frame
+  bool unmoved = false;       ///< to_world is the identity
+  bool mirrored = false;      ///< determinant(to_world) < 0
+  float transform_error = 0;  ///< error of a ray's way into the mesh's frame and back, relative to the coordinates
+  float origin_size = 0;      ///< largest of |to_world.origin|'s coordinates
+};
+
 /// Immutable once built, thread-safe. Intersections are watertight (Embree's robust mode); what is cut out by
-/// AlphaMode::mask lets rays through; AlphaMode::blend is hit with the probability of its coverage, told by a hash of the ray.
+/// AlphaMode::mask lets rays through; AlphaMode::blend is hit with the probability of its coverage, told by a hash of the
+/// ray. Meshes that are used once have their triangles in the one tree, in the world frame; others have a tree of their
+/// own, entered through their instances. Threads that trace should hold a FlushDenormals (flush_denormals.h).
 class RayScene {
  public:
-  /// The scene must pass check_scene and outlive this. Degenerate triangles are kept and never hit. Throws Error when
-  /// memory does not suffice.
+  /// The scene must pass check_scene and outlive this. Degenerate triangles are kept and never hit; instances that
+  /// flatten space (determinant 0) are flattened with it. Throws Error naming scene.source when memory does not suffice.
   explicit RayScene(const Scene& scene);
   ~RayScene();
   RayScene(RayScene&&) noexcept;
@@ -39,6 +54,7 @@ class RayScene {
   std::optional<Hit> closest(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
   const Scene& scene() const;
+  const std::vector<PlacedMesh>& placed() const;  ///< one for each of scene().instances
 
  private:
   struct Tree;
