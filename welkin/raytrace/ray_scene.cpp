@@ -29,7 +29,7 @@ template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& what) {
-  throw Error(scene.source + ": " + what);
+  throw Error(scene.source, what);
 }
 
 std::uint32_t bits_of(float value) {

@@ -1,0 +1,25 @@
+#include <welkin/pathtrace/camera_ray.h>
+
+#include <cmath>
+
+namespace welkin {
+
+Ray camera_ray(const Camera& camera, PictureSize size, float x, float y) {
+  const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+  // Both in units of half the picture's height, right and up.
+  const float right = (2 * x - width) / height, up = (height - 2 * y) / height;
+  const Affine& frame = camera.to_world;
+  Ray ray;
+  if (camera.orthographic_height) {
+    const float half = *camera.orthographic_height / 2;
+    ray.origin = frame.origin + (right * half) * frame.x + (up * half) * frame.y;
+    ray.direction = normalized(-frame.z);
+    return ray;
+  }
+  const float half = std::tan(camera.vertical_field_radians / 2);
+  ray.origin = frame.origin;
+  ray.direction = normalized((right * half) * frame.x + (up * half) * frame.y - frame.z);
+  return ray;
+}
+
+}  // namespace welkin
