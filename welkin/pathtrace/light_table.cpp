@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include <welkin/raytrace/texture_lookup.h>
+#include <welkin/sampling/warp.h>
 
 namespace welkin {
 namespace {
 
-constexpr float pi = 3.14159265f;
 constexpr std::uint32_t no_light = ~0u;
 
 bool emits(const Material& material) { return !is_black(material.emission); }
@@ -30,8 +30,8 @@ double mean_emission(const Scene& scene, const Mesh& mesh, std::size_t triangle)
       for (int k = 0; k < 2; ++k) {
         if (mesh.texcoords[k].empty()) continue;
         const auto& c = mesh.triangles[triangle];
-        texcoords[k] = (1 - u - v) * mesh.texcoords[k][c[0]] + u * mesh.texcoords[k][c[1]] +
-                       v * mesh.texcoords[k][c[2]];
+        texcoords[k] =
+            (1 - u - v) * mesh.texcoords[k][c[0]] + u * mesh.texcoords[k][c[1]] + v * mesh.texcoords[k][c[2]];
       }
       const Texel texel = look_up(scene, use, texcoords);
       sum += luminance(material.emission * Rgb{texel[0], texel[1], texel[2]});
@@ -69,12 +69,9 @@ TriangleLight triangle_light(const PlacedMesh& placed, std::uint32_t object, std
 double punctual_power(const PunctualLight& light, double disc_area) {
   const double intensity = luminance(light.intensity);
   switch (light.kind) {
-    case PunctualLight::Kind::directional:
-      return intensity * disc_area;
-    case PunctualLight::Kind::point:
-      return 4 * M_PI * intensity;
-    default:
-      return 2 * M_PI * (1 - std::cos(light.outer_cone_radians)) * intensity;
+    case PunctualLight::Kind::directional: return intensity * disc_area;
+    case PunctualLight::Kind::point: return 4 * M_PI * intensity;
+    default: return 2 * M_PI * (1 - std::cos(light.outer_cone_radians)) * intensity;
   }
 }
 
@@ -103,7 +100,7 @@ float one_minus_cosine(float radius, float squared) {
 }  // namespace
 
 LightTable::LightTable(const RayScene& rays, const EnvironmentSampler* environment)
-    : scene_(&rays.scene()), environment_(environment), first_light_() {
+    : scene_(&rays.scene()), environment_(environment) {
   const double luminance_of_sky = environment == nullptr ? 0 : environment->mean_luminance();
   if (!(luminance_of_sky > 0)) environment_ = nullptr;
   first_light_.assign(scene_->instances.size() + scene_->spheres.size(), no_light);
@@ -160,25 +157,22 @@ void LightTable::set_shares(double environment_luminance) {
   if (!(all > 0)) return;
   const double groups = (punctual > 0) + (sky > 0) + (surfaces > 0);
   const auto factor = [&](double of) { return of > 0 ? 0.75 / all + 0.25 / (groups * of) : 0; };
-  double sum = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
     const bool is_punctual = i < scene_->lights.size(), is_sky = i == scene_->lights.size();
-    sum += power[i] * factor(is_punctual ? punctual : is_sky ? sky : surfaces);
-    cumulative_.push_back(sum);
+    power[i] *= factor(is_punctual ? punctual : is_sky ? sky : surfaces);
   }
-  for (double& c : cumulative_) c /= sum;
-  if (!scene_->lights.empty()) punctual_share_ = static_cast<float>(cumulative_[scene_->lights.size() - 1]);
-  environment_share_ = share(scene_->lights.size());
+  choice_ = DiscreteDistribution(power);
+  for (std::size_t i = 0; i < scene_->lights.size(); ++i) punctual_share_ += choice_.probability(i);
+  environment_share_ = choice_.probability(scene_->lights.size());
 }
 
 LightSample LightTable::sample(Vec3f from, float select, Vec2f u) const {
-  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), static_cast<double>(select));
-  const std::size_t light = std::min<std::size_t>(found - cumulative_.begin(), cumulative_.size() - 1);
-  const float chance = share(light);
+  const DiscreteDistribution::Choice choice = choice_.choose(select);
+  const std::size_t light = choice.index;
   LightSample sample;
   if (light < scene_->lights.size()) {
     sample = from_punctual(from, scene_->lights[light]);
-    sample.pdf = chance;
+    sample.pdf = choice.probability;
     return sample;
   }
   if (light < first_sphere_) {
@@ -191,12 +185,13 @@ LightSample LightTable::sample(Vec3f from, float select, Vec2f u) const {
   } else {
     sample = from_triangle(from, triangles_[light - first_triangle()], u);
   }
-  sample.pdf *= chance;
+  sample.pdf *= choice.probability;
   return sample;
 }
 
 LightSample LightTable::sample_punctual(Vec3f from, float select) const {
-  LightSample found = sample(from, select * punctual_share_, {});
+  // Chances are multiples of 2^-24; rounding must not lead to what follows the punctual lights.
+  LightSample found = sample(from, std::min(select * punctual_share_, punctual_share_ - 0x1p-24f), {});
   found.pdf /= punctual_share_;
   return found;
 }
@@ -226,12 +221,10 @@ LightSample LightTable::from_sphere(Vec3f from, const SphereLight& light, Vec2f 
   const float squared = dot(way, way), radius = light.radius;
   const bool inside = squared <= radius * radius;
   const float cap = inside ? 2.0f : one_minus_cosine(radius, squared);
-  const float cosine = 1 - u.x * cap, sine = std::sqrt(std::max(0.0f, u.x * cap * (2 - u.x * cap)));
   const Frame frame = make_frame(squared > 0 ? normalized(way) : Vec3f{0, 1, 0});
   LightSample sample;
-  sample.direction =
-      frame.to_world({sine * std::cos(2 * pi * u.y), sine * std::sin(2 * pi * u.y), cosine});
-  sample.pdf = 1 / (2 * pi * cap);
+  sample.direction = frame.to_world(warp_to_cone(u, cap));
+  sample.pdf = cone_pdf(cap);
   // Along the direction: projection of the centre, then half the chord, the nearer end from outside.
   const float along = dot(way, sample.direction);
   const float half = std::sqrt(std::max(0.0f, radius * radius - (squared - along * along)));
@@ -249,15 +242,7 @@ LightSample LightTable::from_sphere(Vec3f from, const SphereLight& light, Vec2f 
 
 /// Uniform over the area; the density per steradian is distance^2 / (area |cos|).
 LightSample LightTable::from_triangle(Vec3f from, const TriangleLight& light, Vec2f u) const {
-  // The square folded onto the triangle along its diagonals keeps neighbours together (Heitz 2019).
-  Vec2f b = u;
-  if (b.y > b.x) {
-    b.x *= 0.5f;
-    b.y -= b.x;
-  } else {
-    b.y *= 0.5f;
-    b.x -= b.y;
-  }
+  const Vec2f b = warp_to_triangle(u);
   const Vec3f point = light.corner + b.x * light.edge_u + b.y * light.edge_v;
   const Vec3f way = point - from;
   const float squared = dot(way, way);
@@ -292,22 +277,22 @@ LightSample LightTable::from_triangle(Vec3f from, const TriangleLight& light, Ve
 float LightTable::sphere_pdf(Vec3f from, const SphereLight& light) const {
   const Vec3f way = light.centre - from;
   const float squared = dot(way, way);
-  if (squared <= light.radius * light.radius) return 1 / (4 * pi);
-  return 1 / (2 * pi * one_minus_cosine(light.radius, squared));
+  if (squared <= light.radius * light.radius) return welkin::sphere_pdf();
+  return cone_pdf(one_minus_cosine(light.radius, squared));
 }
 
 float LightTable::pdf_of_surface(Vec3f from, const Hit& hit, const Surface& surface) const {
   const std::uint32_t first = first_light_[hit.object];
   if (first == no_light) return 0;
   if (hit.object >= scene_->instances.size()) {
-    return share(first_sphere_ + first) * sphere_pdf(from, spheres_[first]);
+    return choice_.probability(first_sphere_ + first) * sphere_pdf(from, spheres_[first]);
   }
   const std::size_t light = first + hit.triangle;
   const Vec3f way = surface.position - from;
   const float squared = dot(way, way);
   const float area_cosine =
       triangles_[light].area * std::abs(dot(way, surface.geometric_normal)) / std::sqrt(squared);
-  return area_cosine > 0 ? share(first_triangle() + light) * squared / area_cosine : 0;
+  return area_cosine > 0 ? choice_.probability(first_triangle() + light) * squared / area_cosine : 0;
 }
 
 Rgb LightTable::emission(int index, bool front, const Vec2f (&texcoords)[2]) const {

@@ -5,6 +5,7 @@
 #include <welkin/envmap/importance/environment_sampler.h>
 #include <welkin/image/rgb.h>
 #include <welkin/raytrace/surface.h>
+#include <welkin/sampling/discrete.h>
 #include <welkin/scene/scene.h>
 
 // All lights of a scene and one way to pick among them: the environment, punctual lights, spheres and triangles that emit.
@@ -15,8 +16,9 @@ namespace welkin {
 struct LightSample {
   Vec3f direction;  ///< unit, from the point to the light
   float distance = 1e30f;
-  Rgb radiance;     ///< black: no sample. For `is_delta` the irradiance on a surface that faces the light
-  float pdf = 0;    ///< per steradian, with the choice of the light in it; for is_delta the choice's probability alone
+  Rgb radiance;  ///< black: no sample. For `is_delta` the irradiance on a surface that faces the light
+  float pdf =
+      0;  ///< per steradian, with the choice of the light in it; for is_delta the choice's probability alone
   bool is_delta = false;
   Vec3f target;  ///< where the light's surface is, moved off it; unused where distance is 1e30f
 };
@@ -43,7 +45,7 @@ class LightTable {
  public:
   LightTable(const RayScene& rays, const EnvironmentSampler* environment);
 
-  bool empty() const { return cumulative_.empty(); }
+  bool empty() const { return choice_.empty(); }
   /// Whether anything but punctual lights is here.
   bool has_area_lights() const { return punctual_share_ < 1; }
   bool has_punctual_lights() const { return punctual_share_ > 0; }
@@ -62,9 +64,6 @@ class LightTable {
   Rgb emission(int material, bool front, const Vec2f (&texcoords)[2]) const;
 
  private:
-  float share(std::size_t light) const {
-    return static_cast<float>(cumulative_[light] - (light == 0 ? 0 : cumulative_[light - 1]));
-  }
   std::size_t first_triangle() const { return first_sphere_ + spheres_.size(); }
   LightSample from_punctual(Vec3f from, const PunctualLight& light) const;
   LightSample from_sphere(Vec3f from, const SphereLight& light, Vec2f u) const;
@@ -78,9 +77,9 @@ class LightTable {
   const EnvironmentSampler* environment_;  ///< null where it is black
   std::vector<TriangleLight> triangles_;
   std::vector<SphereLight> spheres_;
-  std::vector<double> cumulative_; ///< punctual lights, environment, spheres, triangles
+  DiscreteDistribution choice_;             ///< among punctual lights, environment, spheres, triangles
   std::vector<std::uint32_t> first_light_;  ///< by object: of its first triangle in triangles_, or its sphere
-  std::size_t first_sphere_ = 0;            ///< index of the first sphere in cumulative_
+  std::size_t first_sphere_ = 0;            ///< index of the first sphere in choice_
   float punctual_share_ = 0, environment_share_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <welkin/pathtrace/camera_ray.h>
 #include <welkin/pathtrace/render_scene.h>
 #include <welkin/sampling/sobol.h>
+#include <welkin/sampling/warp.h>
 
 namespace welkin {
 
@@ -40,9 +41,10 @@ class OcclusionTracer {
 
  private:
   bool is_open(const ShadingPoint& point, Vec2f u) {
-    const Vec3f direction = point.frame.to_world(cosine_direction(u));
+    const Vec3f direction = point.frame.to_world(warp_to_cosine_hemisphere(u));
     if (!point.faces(direction)) return false;
-    return !rays_.occluded({leave_surface(point.surface, direction), 0, direction, options_.occlusion_distance});
+    return !rays_.occluded(
+        {leave_surface(point.surface, direction), 0, direction, options_.occlusion_distance});
   }
 
   const RenderScene::Tables& tables_;

@@ -30,7 +30,7 @@ class PathTracer {
 
   /// Fills radiance, albedo, normal and coverage of `sample`; position of the first surface, if any, in `first`.
   void trace(Ray ray, SampleStream& stream, PixelSample& sample, Vec3f& first) {
-    Path path{ray};
+    Path path(ray);
     for (int bounce = 0;; ++bounce) {
       const std::optional<Hit> hit = rays_.closest(path.ray);
       if (!hit) {
@@ -56,10 +56,12 @@ class PathTracer {
 
  private:
   struct Path {
+    explicit Path(const Ray& first) : ray(first) {}
     Ray ray;
     Rgb throughput{1, 1, 1};
-    float pdf = std::numeric_limits<float>::infinity();  ///< of ray's direction; infinite for camera and mirrors
-    Vec3f from;  ///< the surface that the ray left
+    float pdf =
+        std::numeric_limits<float>::infinity();  ///< of ray's direction; infinite for camera and mirrors
+    Vec3f from;                                  ///< the surface that the ray left
   };
   static constexpr float delta_pdf = 3e38f;
 
@@ -76,12 +78,9 @@ class PathTracer {
   float weight_of_path(const Path& path, float light_pdf) const {
     if (!(path.pdf < delta_pdf)) return 1;
     switch (options_.sampling) {
-      case LightSampling::bsdf:
-        return 1;
-      case LightSampling::light:
-        return 0;
-      default:
-        return mis_weight(options_.heuristic, path.pdf, light_pdf);
+      case LightSampling::bsdf: return 1;
+      case LightSampling::light: return 0;
+      default: return mis_weight(options_.heuristic, path.pdf, light_pdf);
     }
   }
 
@@ -97,8 +96,7 @@ class PathTracer {
     const Surface& s = point.surface;
     const Rgb emission = tables_.lights.emission(s.material, s.front, s.texcoords);
     if (is_black(emission)) return;
-    const float light_pdf =
-        path.pdf < delta_pdf ? tables_.lights.pdf_of_surface(path.from, hit, s) : 0.0f;
+    const float light_pdf = path.pdf < delta_pdf ? tables_.lights.pdf_of_surface(path.from, hit, s) : 0.0f;
     add(weight_of_path(path, light_pdf) * path.throughput * emission, bounce - 1, sample.radiance);
   }
 

@@ -12,8 +12,8 @@ template <class Rays>
 PixelSample render_sample_with(Rays& rays, const RenderScene& scene, const Camera& camera, PictureSize size,
                                int x, int y, std::uint32_t index, const IntegratorOptions& options) {
   const FlushDenormals flush;
-  const auto pixel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(size.width) +
-                     static_cast<std::uint32_t>(x);
+  const auto pixel =
+      static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(size.width) + static_cast<std::uint32_t>(x);
   const std::uint32_t seed = mix_bits32(mix_bits32(options.seed + 0x632be5abu) + pixel);
   SampleStream stream(index, seed);
   const Vec2f in_pixel = stream.next_2d();

@@ -10,30 +10,18 @@ namespace {
 
 ScatterModel scatter_model(MaterialModel model) {
   switch (model) {
-    case MaterialModel::lambert:
-      return ScatterModel::lambert;
-    case MaterialModel::oren_nayar:
-      return ScatterModel::oren_nayar;
-    case MaterialModel::phong:
-      return ScatterModel::phong;
-    case MaterialModel::blinn_phong:
-      return ScatterModel::blinn_phong;
-    case MaterialModel::lafortune:
-      return ScatterModel::lafortune;
-    case MaterialModel::ggx:
-      return ScatterModel::ggx;
-    case MaterialModel::ggx_conductor:
-      return ScatterModel::ggx_conductor;
-    case MaterialModel::mirror:
-      return ScatterModel::mirror;
-    case MaterialModel::conductor:
-      return ScatterModel::conductor;
-    case MaterialModel::dielectric:
-      return ScatterModel::dielectric;
-    case MaterialModel::coated_diffuse:
-      return ScatterModel::coated_diffuse;
-    case MaterialModel::metallic_roughness:
-      break;
+    case MaterialModel::lambert: return ScatterModel::lambert;
+    case MaterialModel::oren_nayar: return ScatterModel::oren_nayar;
+    case MaterialModel::phong: return ScatterModel::phong;
+    case MaterialModel::blinn_phong: return ScatterModel::blinn_phong;
+    case MaterialModel::lafortune: return ScatterModel::lafortune;
+    case MaterialModel::ggx: return ScatterModel::ggx;
+    case MaterialModel::ggx_conductor: return ScatterModel::ggx_conductor;
+    case MaterialModel::mirror: return ScatterModel::mirror;
+    case MaterialModel::conductor: return ScatterModel::conductor;
+    case MaterialModel::dielectric: return ScatterModel::dielectric;
+    case MaterialModel::coated_diffuse: return ScatterModel::coated_diffuse;
+    case MaterialModel::metallic_roughness: break;
   }
   return ScatterModel::metallic_roughness;
 }

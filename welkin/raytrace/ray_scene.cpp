@@ -28,9 +28,7 @@ struct Release {
 template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
-[[noreturn]] void refuse(const Scene& scene, const std::string& what) {
-  throw Error(scene.source, what);
-}
+[[noreturn]] void refuse(const Scene& scene, const std::string& what) { throw Error(scene.source, what); }
 
 std::uint32_t bits_of(float value) {
   std::uint32_t bits;
@@ -116,15 +114,14 @@ PlacedMesh placed_mesh(const Scene& scene, const Instance& instance, bool in_wor
   const Affine& a = instance.to_world;
   placed.mesh = &scene.meshes[instance.mesh];
   placed.to_world = a;
-  placed.unmoved = a.x == Vec3f{1, 0, 0} && a.y == Vec3f{0, 1, 0} && a.z == Vec3f{0, 0, 1} &&
-                   a.origin == Vec3f{0, 0, 0};
+  placed.unmoved =
+      a.x == Vec3f{1, 0, 0} && a.y == Vec3f{0, 1, 0} && a.z == Vec3f{0, 0, 1} && a.origin == Vec3f{0, 0, 0};
   const float volume = determinant(a);
   placed.mirrored = volume < 0;
   // What cannot be inverted has to be flattened (into nothing that is ever hit, or into a sheet).
   placed.in_world = in_world || !(std::abs(volume) > 1e-30f);
   if (!placed.in_world) placed.transform_error = transform_error(a);
-  placed.origin_size =
-      std::max(std::max(std::abs(a.origin.x), std::abs(a.origin.y)), std::abs(a.origin.z));
+  placed.origin_size = std::max(std::max(std::abs(a.origin.x), std::abs(a.origin.y)), std::abs(a.origin.z));
   return placed;
 }
 
@@ -134,7 +131,7 @@ struct RayScene::Tree {
   const Scene* scene = nullptr;
   Owned<RTCDevice> device;
   Owned<RTCScene> top;
-  std::vector<Owned<RTCScene>> mesh_scenes;   ///< by mesh; null where no instance needs it
+  std::vector<Owned<RTCScene>> mesh_scenes;  ///< by mesh; null where no instance needs it
   std::vector<const Vec3f*> mesh_positions;  ///< of those scenes
   std::vector<PlacedMesh> placed;
   std::vector<CutOut> cut_outs;  ///< by mesh, then the spheres'
@@ -219,9 +216,8 @@ const Vec3f* RayScene::Tree::add_triangles(RTCScene tree, unsigned id, const Mes
   RTCGeometry geometry = owned.get();
   Vec3f* positions = nullptr;
   if (!mesh.triangles.empty() && !mesh.positions.empty()) {
-    positions = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                            RTC_FORMAT_FLOAT3, sizeof(Vec3f),
-                                                            mesh.positions.size()));
+    positions = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.size()));
     void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                               sizeof mesh.triangles[0], mesh.triangles.size());
     check(positions != nullptr && triangles != nullptr);
@@ -285,9 +281,18 @@ const std::vector<PlacedMesh>& RayScene::placed() const { return tree_->placed; 
 
 std::optional<Hit> RayScene::closest(const Ray& ray) const {
   RTCRayHit query;
-  query.ray = {ray.origin.x,    ray.origin.y,    ray.origin.z,    ray.near, ray.direction.x,
-               ray.direction.y, ray.direction.z, 0,               ray.far,  ~0u,
-               0,               0};
+  query.ray = {ray.origin.x,
+               ray.origin.y,
+               ray.origin.z,
+               ray.near,
+               ray.direction.x,
+               ray.direction.y,
+               ray.direction.z,
+               0,
+               ray.far,
+               ~0u,
+               0,
+               0};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
@@ -305,9 +310,18 @@ std::optional<Hit> RayScene::closest(const Ray& ray) const {
 }
 
 bool RayScene::occluded(const Ray& ray) const {
-  RTCRay query{ray.origin.x,    ray.origin.y,    ray.origin.z,    ray.near, ray.direction.x,
-               ray.direction.y, ray.direction.z, 0,               ray.far,  ~0u,
-               0,               0};
+  RTCRay query{ray.origin.x,
+               ray.origin.y,
+               ray.origin.z,
+               ray.near,
+               ray.direction.x,
+               ray.direction.y,
+               ray.direction.z,
+               0,
+               ray.far,
+               ~0u,
+               0,
+               0};
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(tree_->top.get(), &context, &query);

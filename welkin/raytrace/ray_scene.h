@@ -31,11 +31,12 @@ struct PlacedMesh {
   const Mesh* mesh = nullptr;
   const Vec3f* positions = nullptr;  ///< in the world where `in_world`, else the mesh's own
   Affine to_world;
-  bool in_world = false;      ///< the tree has this mesh's triangles in the world frame
-  bool unmoved = false;       ///< to_world is the identity
-  bool mirrored = false;      ///< determinant(to_world) < 0
-  float transform_error = 0;  ///< error of a ray's way into the mesh's frame and back, relative to the coordinates
-  float origin_size = 0;      ///< largest of |to_world.origin|'s coordinates
+  bool in_world = false;  ///< the tree has this mesh's triangles in the world frame
+  bool unmoved = false;   ///< to_world is the identity
+  bool mirrored = false;  ///< determinant(to_world) < 0
+  float transform_error =
+      0;  ///< error of a ray's way into the mesh's frame and back, relative to the coordinates
+  float origin_size = 0;  ///< largest of |to_world.origin|'s coordinates
 };
 
 /// Immutable once built, thread-safe. Intersections are watertight (Embree's robust mode); what is cut out by

@@ -52,8 +52,7 @@ struct Weights {
 /// corner across it is 4 errors over the triangle's height, and the smallest height is 2 area / longest edge.
 Weights inside_weights(const Hit& hit, float error, float doubled_area, float longest) {
   const float least = std::min(4 * error * longest / doubled_area, 0.25f);
-  const float w = std::max(1 - hit.u - hit.v, least), u = std::max(hit.u, least),
-              v = std::max(hit.v, least);
+  const float w = std::max(1 - hit.u - hit.v, least), u = std::max(hit.u, least), v = std::max(hit.v, least);
   const float scale = 1 / (w + u + v);
   return {scale * w, scale * u, scale * v};
 }
@@ -72,7 +71,8 @@ struct TextureTangent {
 TextureTangent texture_tangent(const std::vector<Vec2f>& uv, const std::array<std::uint32_t, 3>& triangle,
                                Vec3f a, Vec3f b) {
   const Vec2f s = uv[triangle[1]] - uv[triangle[0]], t = uv[triangle[2]] - uv[triangle[0]];
-  const float turn = s.x * t.y - s.y * t.x;  // > 0: v, seen from the front, is 90 degrees counter-clockwise of u
+  const float turn =
+      s.x * t.y - s.y * t.x;  // > 0: v, seen from the front, is 90 degrees counter-clockwise of u
   if (turn == 0) return {};
   const Vec3f along = t.y * a - s.y * b;
   return {turn < 0 ? -along : along, turn < 0 ? 1.0f : -1.0f};

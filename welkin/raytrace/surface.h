@@ -7,8 +7,9 @@ namespace welkin {
 /// The surface where a ray met it, all in the world frame.
 struct Surface {
   Vec3f position;  ///< from the barycentric coordinates, more exact than origin + distance x direction
-  float position_error = 0;  ///< how far from the true surface it and what the tree makes of it may be, metres
-  Vec3f geometric_normal;    ///< unit, of the front side (counter-clockwise or outside)
+  float position_error =
+      0;                   ///< how far from the true surface it and what the tree makes of it may be, metres
+  Vec3f geometric_normal;  ///< unit, of the front side (counter-clockwise or outside)
   Frame shading;  ///< interpolated normal and tangent, before any normal map; on the geometric normal's side
   float bitangent_sign = 1;  ///< a normal map's green points along bitangent_sign x shading.bitangent
   Vec2f texcoords[2];

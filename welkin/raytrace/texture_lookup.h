@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include <welkin/geometry/fast_angles.h>
 #include <welkin/geometry/vec3f.h>
 #include <welkin/scene/scene.h>
 
@@ -40,12 +41,9 @@ inline float within_periods(float t, TextureWrap wrap) {
 inline Texel texel_at(const Image& image, int x, int y) {
   const float* p = image.at(x, y);
   switch (image.channels) {
-    case 1:
-      return {p[0], p[0], p[0], 1};
-    case 3:
-      return {p[0], p[1], p[2], 1};
-    default:
-      return {p[0], p[1], p[2], p[3]};
+    case 1: return {p[0], p[0], p[0], 1};
+    case 3: return {p[0], p[1], p[2], 1};
+    default: return {p[0], p[1], p[2], p[3]};
   }
 }
 
@@ -80,9 +78,8 @@ inline Texel look_up(const Scene& scene, const TextureUse& use, const Vec2f (&te
 
 /// Texture coordinates of a sphere: those of an equirectangular map, looked up along the unit normal.
 inline Vec2f sphere_texcoord(Vec3f normal) {
-  constexpr float pi = 3.14159265f;
-  return {std::atan2(normal.z, normal.x) / (2 * pi) + 0.5f,
-          std::atan2(std::hypot(normal.x, normal.z), normal.y) / pi};
+  const float across = std::sqrt(normal.x * normal.x + normal.z * normal.z);
+  return {atan2_turns(normal.z, normal.x) + 0.5f, 2 * atan2_turns(across, normal.y)};
 }
 
 /// A material's coverage at a point, for AlphaMode::mask and blend.
