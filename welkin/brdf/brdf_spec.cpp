@@ -11,7 +11,7 @@
 #include <welkin/brdf/lafortune.h>
 #include <welkin/brdf/merl.h>
 #include <welkin/brdf/models.h>
-#include <welkin/brdf/spec_numbers.h>
+#include <welkin/brdf/spec_parameters.h>
 #include <welkin/error.h>
 #include <welkin/image/output_file.h>
 
@@ -19,55 +19,7 @@ namespace welkin {
 namespace {
 
 using Rgb = std::array<double, 3>;
-
-// The parameters of one model, taken from first to last.
-class Parameters {
- public:
-  Parameters(std::string_view spec, std::string_view form, std::string_view text) : spec_(spec), form_(form) {
-    if (!text.empty()) parts_ = split_spec(text, ',');
-  }
-
-  double number() { return parse(next()); }
-
-  Rgb colour() {
-    const std::vector<std::string_view> parts = split_spec(next(), ':');
-    if (parts.size() == 1) {
-      const double grey = parse(parts[0]);
-      return {grey, grey, grey};
-    }
-    if (parts.size() != 3) refuse("a colour is one number or three (1:0.5:0.25)");
-    return {parse(parts[0]), parse(parts[1]), parse(parts[2])};
-  }
-
-  bool more() const { return at_ < parts_.size(); }
-
-  Rgb colour_or(double grey) { return at_ < parts_.size() ? colour() : Rgb{grey, grey, grey}; }
-
-  /// To be called when all that the model has were taken.
-  void finish() const {
-    if (at_ < parts_.size()) refuse("it has a parameter too many");
-  }
-
- private:
-  std::string_view next() {
-    if (at_ >= parts_.size()) refuse("a parameter is missing");
-    return parts_[at_++];
-  }
-
-  double parse(std::string_view text) const {
-    const std::optional<double> value = spec_number(text);
-    if (!value) refuse(fmt::format("'{}' is not a number", text));
-    return *value;
-  }
-
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw Error(fmt::format("BRDF '{}': {}; its form is {}", spec_, what, form_));
-  }
-
-  std::string_view spec_, form_;
-  std::vector<std::string_view> parts_;
-  std::size_t at_ = 0;
-};
+using Parameters = SpecParameters;
 
 IsotropicBrdf lambert(Parameters& p) { return make_lambert_brdf(p.colour()); }
 

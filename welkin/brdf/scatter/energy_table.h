@@ -13,15 +13,16 @@
 
 namespace welkin {
 
-/// E = f0 scale + f90 bias of a GGX lobe with Schlick's term; of other lobes scale alone.
+/// lost = 1 - E of white facets (of other lobes: of the lobe with color 1), and `bias`, the share of Schlick's weight:
+/// a GGX lobe with f0, f90 reflects f0 (1 - lost) + (f90 - f0) bias.
 struct Energy {
-  float scale = 0, bias = 0;
+  float lost = 0, bias = 0;
 };
 
 /// The same averaged with cos / pi over the hemisphere, and `spread`, the parameter of the density that samples
-/// (1 - E) cos (warps.h).
+/// lost cos (warps.h).
 struct EnergyAverage {
-  float scale = 0, bias = 0, spread = 1;
+  float lost = 0, bias = 0, spread = 1;
 };
 
 /// Row by row; the columns are cosines (energy_axis).
@@ -74,7 +75,7 @@ inline Energy look_up_energy(const EnergyTable& table, Vec3f direction, float al
     const float first = a + s * (b - a);
     return first + t * (c + s * (d - c) - first);
   };
-  return {mix(low[0].scale, low[1].scale, high[0].scale, high[1].scale),
+  return {mix(low[0].lost, low[1].lost, high[0].lost, high[1].lost),
           mix(low[0].bias, low[1].bias, high[0].bias, high[1].bias)};
 }
 
@@ -85,7 +86,7 @@ inline EnergyAverage look_up_average(const EnergyTable& table, float alpha) {
   const int i = std::min(static_cast<int>(at), last - 1);
   const float t = at - static_cast<float>(i);
   const EnergyAverage &a = table.averages[i], &b = table.averages[i + 1];
-  return {a.scale + t * (b.scale - a.scale), a.bias + t * (b.bias - a.bias),
+  return {a.lost + t * (b.lost - a.lost), a.bias + t * (b.bias - a.bias),
           a.spread + t * (b.spread - a.spread)};
 }
 

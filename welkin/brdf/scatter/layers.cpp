@@ -36,7 +36,8 @@ Layers bare_layers(const Scatter& scatter, Vec3f view) {
   layers.smooth = scatter.model == ScatterModel::coated_diffuse && scatter.alpha_x <= 0;
   const float alpha_y = scatter.model == ScatterModel::coated_diffuse ? scatter.alpha_x : scatter.alpha_y;
   layers.facets = microfacet_view(view, scatter.alpha_x, alpha_y);
-  layers.alpha = std::sqrt(layers.facets.alpha_x * layers.facets.alpha_y);
+  const float x = layers.facets.alpha_x, y = layers.facets.alpha_y;
+  layers.alpha = x == y ? x : std::sqrt((x * x + y * y) / 2);
   layers.eta = scatter.eta;
   layers.k = scatter.k;
   layers.f0 = has_base(scatter) ? scatter.f0 * white : scatter.color;
@@ -57,29 +58,34 @@ bool compensates(const Scatter& scatter, const Layers& layers) {
 Energy energy_of(const Layers& layers, Vec3f direction) {
   if (!layers.smooth) return look_up_energy(*layers.table, direction, layers.alpha);
   const float weight = schlick_weight(direction.z);
-  return {1 - weight, weight};
+  return {0, weight};
 }
 
 struct Balance {
   Energy view;
   EnergyAverage average;
-  float white = 1, average_white = 1;  // E(v), E_avg of white facets
+  float average_white = 1;  // E_avg of white facets
 };
 
 Balance balance_of(const Layers& layers) {
   Balance b;
   b.view = energy_of(layers, layers.facets.view);
-  b.average =
-      layers.smooth ? EnergyAverage{20.0f / 21, 1.0f / 21, 1} : look_up_average(*layers.table, layers.alpha);
-  b.white = std::min(1.0f, b.view.scale + b.view.bias);
-  b.average_white = std::min(1 - 1e-6f, b.average.scale + b.average.bias);
+  b.average = layers.smooth ? EnergyAverage{0, 1.0f / 21, 1} : look_up_average(*layers.table, layers.alpha);
+  b.average_white = 1 - b.average.lost;
   return b;
 }
 
-// What the facets reflect; for a conductor with F of the view, which is right but for wide lobes.
+float normal_reflectance(float eta, float k) {
+  return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
+}
+
+// What the facets reflect; of a conductor as if its term were Schlick's.
 Rgb facets_albedo(const Layers& layers, const Balance& b) {
-  if (layers.conductor) return b.white * fresnel_conductor(layers.facets.view.z, layers.eta, layers.k);
-  return b.view.scale * layers.f0 + b.view.bias * layers.f90;
+  const Rgb f0 = layers.conductor ? Rgb{normal_reflectance(layers.eta.r, layers.k.r),
+                                        normal_reflectance(layers.eta.g, layers.k.g),
+                                        normal_reflectance(layers.eta.b, layers.k.b)}
+                                  : layers.f0;
+  return (1 - b.view.lost - b.view.bias) * f0 + b.view.bias * (layers.conductor ? white : layers.f90);
 }
 
 // k(F) of the facets. Dielectric and metal of metallic_roughness are mixed, so that both being white is white.
@@ -95,10 +101,9 @@ Rgb multiple_of(const Scatter& scatter, const Layers& layers, const Balance& b) 
 }
 
 CoatEnergy coat_of(const Scatter& scatter, const Balance& b, bool compensated) {
-  if (!compensated) return {scatter.f0, scatter.f90, 0};
   const float average = scatter.f0 + (scatter.f90 - scatter.f0) / 21;
-  const float k = multiple_colour(average, b.average_white);
-  return {scatter.f0 - k, scatter.f90 - k, k};
+  const float k = compensated ? multiple_colour(average, b.average_white) : 0;
+  return {scatter.f0, k - scatter.f0, scatter.f90 - scatter.f0};
 }
 
 }  // namespace
@@ -114,8 +119,8 @@ Layers make_layers(const Scatter& scatter, Vec3f view) {
   float m_multiple = 0, m_diffuse = 0;
   layers.albedo = facets;
   if (compensated) {
-    const Rgb reflected = (1 - b.white) * multiple_of(scatter, layers, b);
-    layers.multiple = (1 / (pi * (1 - b.average_white))) * reflected;
+    const Rgb reflected = b.view.lost * multiple_of(scatter, layers, b);
+    layers.multiple = (1 / (pi * b.average.lost)) * reflected;
     layers.spread = b.average.spread;
     layers.albedo += reflected;
     m_multiple = max_channel(reflected);
@@ -124,7 +129,7 @@ Layers make_layers(const Scatter& scatter, Vec3f view) {
     layers.coat = coat_of(scatter, b, compensated);
     const float metal = scatter.model == ScatterModel::metallic_roughness ? scatter.metallic : 0;
     const float passed = std::max(0.0f, 1 - layers.coat(b.view));
-    const float average = layers.coat({b.average.scale, b.average.bias});
+    const float average = layers.coat({b.average.lost, b.average.bias});
     const Rgb reflected = ((1 - metal) * passed) * scatter.color;
     layers.diffuse = average < 1 ? (1 / (pi * (1 - average))) * reflected : Rgb{};
     layers.albedo += reflected;
@@ -158,8 +163,7 @@ ScatterValue layers_value(const Layers& layers, Vec3f light) {
   if (!layers.table) return result;
   const Energy energy = energy_of(layers, light);
   if (layers.p_multiple > 0) {
-    const float lost = std::max(0.0f, 1 - energy.scale - energy.bias);
-    result.value += (lost * light.z) * layers.multiple;
+    result.value += (energy.lost * light.z) * layers.multiple;
     result.pdf += layers.p_multiple * lost_pdf(layers.spread, light.z);
   }
   if (layers.p_diffuse > 0) {

@@ -8,7 +8,7 @@
 //   facets    F D V
 //   multiple  k(F) (1 - E(l)) (1 - E(v)) / (pi (1 - E_avg)),   k = F_avg^2 E_avg / (1 - F_avg (1 - E_avg))
 //             with E of white facets (Kulla & Conty 2017)
-//   diffuse   albedo (1 - C(l)) (1 - C(v)) / (pi (1 - C_avg)),   C = f0 scale + f90 bias + k(f0) (1 - scale - bias),
+//   diffuse   albedo (1 - C(l)) (1 - C(v)) / (pi (1 - C_avg)),   C = f0 (1 - lost) + (f90 - f0) bias + k(f0) lost,
 //             all that the coat of reflectance f0 sends back (Kelemen & Szirmay-Kalos 2001).
 // One lobe is chosen with a probability in proportion to the largest channel of what it reflects of this view.
 
@@ -16,8 +16,8 @@ namespace welkin::scatter_detail {
 
 /// What a coat reflects, as a straight line in a table's Energy.
 struct CoatEnergy {
-  float of_scale = 0, of_bias = 0, constant = 0;
-  float operator()(Energy e) const { return constant + of_scale * e.scale + of_bias * e.bias; }
+  float constant = 0, of_lost = 0, of_bias = 0;
+  float operator()(Energy e) const { return constant + of_lost * e.lost + of_bias * e.bias; }
 };
 
 struct Layers {

@@ -40,7 +40,7 @@ struct Facet {
 inline Facet facet_of(const MicrofacetView& v, Vec3f light) {
   const Vec3f h = light + v.view;
   const float x = h.x / v.alpha_x, y = h.y / v.alpha_y;
-  const float squared = dot(h, h), q = x * x + y * y + h.z * h.z;
+  const float squared = dot(h, h), q = std::max(x * x + y * y + h.z * h.z, 1e-30f);
   const float ratio = squared / q;
   return {ratio * ratio / (pi * v.alpha_x * v.alpha_y), std::min(1.0f, std::sqrt(squared) / 2)};
 }
@@ -48,7 +48,7 @@ inline Facet facet_of(const MicrofacetView& v, Vec3f light) {
 /// D V cos_light.
 inline float reflected_share(const MicrofacetView& v, Vec3f light, float distribution) {
   const float s_light = stretched_length(light, v.alpha_x, v.alpha_y);
-  return distribution * light.z / (2 * (light.z * v.stretched + v.view.z * s_light));
+  return distribution * light.z / (2 * std::max(light.z * v.stretched + v.view.z * s_light, 1e-37f));
 }
 
 inline float microfacet_pdf(const MicrofacetView& v, float distribution) {

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include <welkin/brdf/scatter/layers.h>
+#include <welkin/brdf/scatter/oren_nayar.h>
+#include <welkin/brdf/scatter/power_lobe.h>
 #include <welkin/brdf/scatter/warps.h>
 
 namespace welkin {
@@ -28,9 +30,23 @@ Rgb mirror_reflectance(const Scatter& s, Vec3f view) {
   }
 }
 
-bool has_layers(ScatterModel model) {
-  return model == ScatterModel::ggx || model == ScatterModel::ggx_conductor ||
-         model == ScatterModel::coated_diffuse || model == ScatterModel::metallic_roughness;
+// The direction and what evaluate_with_pdf says of it.
+ScatterSample weighed(Vec3f light, ScatterValue value) {
+  if (!(light.z > 0) || !(value.pdf > 0)) return {};
+  return {light, (1 / value.pdf) * value.value, value.pdf};
+}
+
+ScatterSample sample_oren_nayar(const Scatter& s, Vec3f view, Vec2f u, float choice) {
+  const OrenNayar lobe = make_oren_nayar(s, view);
+  const Vec3f light = choice < lobe.p_uniform ? sample_uniform(u) : sample_cosine(u);
+  return weighed(light, oren_nayar_value(lobe, s.color, light));
+}
+
+ScatterSample sample_power(const Scatter& s, Vec3f view, Vec2f u, float choice) {
+  const PowerLobe lobe = make_power_lobe(s, view);
+  const Vec3f light = sample_power_lobe(lobe, u, choice);
+  if (!(light.z > 0)) return {};
+  return weighed(light, power_lobe_value(lobe, s.color, light));
 }
 
 }  // namespace
@@ -41,9 +57,22 @@ bool is_delta(const Scatter& s) {
 }
 
 ScatterValue evaluate_with_pdf(const Scatter& s, Vec3f light, Vec3f view) {
-  if (!(light.z > 0) || !(view.z > 0) || is_delta(s)) return {};
-  if (has_layers(s.model)) return layers_value(make_layers(s, view), light);
-  return lambert_value(s, light);
+  if (!(light.z > 0) || !(view.z > 0)) return {};
+  switch (s.model) {
+    case ScatterModel::lambert: return lambert_value(s, light);
+    case ScatterModel::oren_nayar: return oren_nayar_value(make_oren_nayar(s, view), s.color, light);
+    case ScatterModel::phong:
+    case ScatterModel::blinn_phong:
+    case ScatterModel::lafortune: return power_lobe_value(make_power_lobe(s, view), s.color, light);
+    case ScatterModel::ggx:
+    case ScatterModel::ggx_conductor:
+    case ScatterModel::coated_diffuse:
+    case ScatterModel::metallic_roughness: return layers_value(make_layers(s, view), light);
+    case ScatterModel::mirror:
+    case ScatterModel::conductor:
+    case ScatterModel::dielectric: break;
+  }
+  return {};
 }
 
 Rgb evaluate(const Scatter& s, Vec3f light, Vec3f view) { return evaluate_with_pdf(s, light, view).value; }
@@ -52,17 +81,43 @@ float pdf(const Scatter& s, Vec3f light, Vec3f view) { return evaluate_with_pdf(
 
 ScatterSample sample(const Scatter& s, Vec3f view, Vec2f u, float lobe) {
   if (!(view.z > 0)) return {};
-  if (is_delta(s)) return {{-view.x, -view.y, view.z}, mirror_reflectance(s, view), INFINITY};
-  if (has_layers(s.model)) return sample_layers(make_layers(s, view), u, lobe);
-  const Vec3f light = sample_cosine(u);
-  return {light, s.color, light.z / pi};
+  switch (s.model) {
+    case ScatterModel::lambert: {
+      const Vec3f light = sample_cosine(u);
+      return {light, s.color, light.z / pi};
+    }
+    case ScatterModel::oren_nayar: return sample_oren_nayar(s, view, u, lobe);
+    case ScatterModel::phong:
+    case ScatterModel::blinn_phong:
+    case ScatterModel::lafortune: return sample_power(s, view, u, lobe);
+    case ScatterModel::ggx:
+    case ScatterModel::ggx_conductor:
+    case ScatterModel::coated_diffuse:
+    case ScatterModel::metallic_roughness: return sample_layers(make_layers(s, view), u, lobe);
+    case ScatterModel::mirror:
+    case ScatterModel::conductor:
+    case ScatterModel::dielectric: return {{-view.x, -view.y, view.z}, mirror_reflectance(s, view), INFINITY};
+  }
+  return {};
 }
 
 Rgb approximate_albedo(const Scatter& s, Vec3f view) {
   if (!(view.z > 0)) return {};
-  if (is_delta(s)) return mirror_reflectance(s, view);
-  if (has_layers(s.model)) return layers_albedo(s, view);
-  return s.color;
+  switch (s.model) {
+    case ScatterModel::lambert: return s.color;
+    case ScatterModel::oren_nayar: return oren_nayar_albedo(make_oren_nayar(s, view), s.color);
+    case ScatterModel::phong:
+    case ScatterModel::blinn_phong:
+    case ScatterModel::lafortune: return power_lobe_albedo(s, view);
+    case ScatterModel::ggx:
+    case ScatterModel::ggx_conductor:
+    case ScatterModel::coated_diffuse:
+    case ScatterModel::metallic_roughness: return layers_albedo(s, view);
+    case ScatterModel::mirror:
+    case ScatterModel::conductor:
+    case ScatterModel::dielectric: return mirror_reflectance(s, view);
+  }
+  return {};
 }
 
 std::string_view scatter_model_name(ScatterModel model) {

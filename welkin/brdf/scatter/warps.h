@@ -12,10 +12,21 @@ namespace welkin::scatter_detail {
 
 inline constexpr float pi = std::numbers::pi_v<float>;
 
+/// (cos, sin) of 2 pi u, u in [0, 1], to 1e-7: Taylor's series about the nearest quarter turn.
+inline Vec2f turn(float u) {
+  const float quarters = std::floor(4 * u + 0.5f);
+  const float x = 2 * pi * (u - quarters / 4), x2 = x * x;
+  const float sine = x * (1 + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 / 362880))));
+  const float cosine = 1 + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 / 40320)));
+  const int q = static_cast<int>(quarters);
+  const Vec2f straight{(q & 1) != 0 ? -sine : cosine, (q & 1) != 0 ? cosine : sine};
+  return (q & 2) != 0 ? -1.0f * straight : straight;
+}
+
 /// A direction at this cosine from z, at azimuth 2 pi u.
 inline Vec3f at_cosine(float cosine, float sine, float u) {
-  const float phi = 2 * pi * u;
-  return {sine * std::cos(phi), sine * std::sin(phi), cosine};
+  const Vec2f t = turn(u);
+  return {sine * t.x, sine * t.y, cosine};
 }
 
 /// Density cos / pi over the hemisphere; z > 0 for u < 1.
@@ -33,14 +44,16 @@ inline Vec3f sample_cosine_power(Vec3f axis, float exponent, Vec2f u) {
 }
 
 /// Density c / (pi (c^2 + spread) log(1 + 1 / spread)), c = cos: the cosine lobe for a large spread, uniform in log c
-/// down to sqrt(spread) for a small one. Made for (1 - E(c)) c, which has that shape (energy_table.h).
+/// down to sqrt(spread) for a small one. Made for (1 - E(c)) c, which has
+/// that shape (energy_table.h). spread in (0, 4].
 inline Vec3f sample_lost(float spread, Vec2f u) {
-  const float c2 = std::min(1.0f, spread * std::expm1((1 - u.x) * std::log1p(1 / spread)));
+  const float c2 = std::min(1.0f, spread * std::expm1((1 - u.x) * std::log(1 + 1 / spread)));
   return at_cosine(std::sqrt(c2), std::sqrt(1 - c2), u.y);
 }
 
+/// The density of sample_lost.
 inline float lost_pdf(float spread, float cosine) {
-  return cosine / (pi * (cosine * cosine + spread) * std::log1p(1 / spread));
+  return cosine / (pi * (cosine * cosine + spread) * std::log(1 + 1 / spread));
 }
 
 }  // namespace welkin::scatter_detail
