@@ -34,6 +34,7 @@ constexpr KnownAttribute known_attributes[] = {
     {"maxSamplesPerPixel", "int", 4},
     {"chromaticities", "chromaticities", 32},
     {"welkinStoredScale", "double", 8},
+    {"welkinErrorFreedom", "double", 8},
 };
 
 class HeaderWalk {
