@@ -1,8 +1,5 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -12,29 +9,12 @@
 #include <CLI/CLI.hpp>
 
 #include "commands.h"
+#include "stop_signal.h"
 
 #include <welkin/error.h>
-#include <welkin/image/output_file.h>
 #include <welkin/parallel/parallel_for.h>
 
 namespace {
-
-// Files appear by renaming, so a killed run has nothing to undo but its temporary files.
-extern "C" void stop(int signal_number) {
-  welkin::remove_unfinished_files();
-  constexpr char wipe_progress[] = "\r\033[K";
-  if (::isatty(STDERR_FILENO)) {
-    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, wipe_progress, sizeof wipe_progress - 1);
-  }
-  ::_exit(128 + signal_number);
-}
-
-// What nohup, or a shell for its jobs in the background, set to be ignored stays ignored.
-void handle(int signal_number) {
-  struct sigaction inherited {};
-  ::sigaction(signal_number, nullptr, &inherited);
-  if (inherited.sa_handler != SIG_IGN) std::signal(signal_number, stop);
-}
 
 // One line, whatever the parser's text looks like.
 int fail_usage(const CLI::App& app, const CLI::ParseError& error) {
@@ -53,7 +33,7 @@ int fail(const char* what) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) handle(signal_number);
+  welkin::handle_stop_signals();
   CLI::App app{"welkin: environment lighting, filtered exactly and measured.\nTry: welkin ibl sky: -o out",
                "welkin"};
   app.set_version_flag("--version", "welkin 0.1.0");
@@ -71,12 +51,16 @@ int main(int argc, char** argv) {
   welkin::add_compare_command(app);
   welkin::add_reflect_command(app);
   welkin::add_brdf_command(app);
+  welkin::add_render_command(app);
   welkin::add_sh_command(app);
   welkin::add_sky_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error) : fail_usage(app, error);
+  } catch (const welkin::Stopped& stopped) {
+    fail(stopped.what());
+    return 128 + stopped.signal_number();
   } catch (const std::bad_alloc&) {
     return fail("out of memory");
   } catch (const std::exception& error) {

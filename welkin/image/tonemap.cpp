@@ -29,6 +29,12 @@ double reinhard_gain(double l, double white) {
   return std::isfinite(l) ? (1 + l / (white * white)) / (1 + l) : 1;
 }
 
+// Narkowicz 2015: a rational curve from 0 to 2.51 / 2.43, clamped to 1, of linear values in and linear values out.
+double filmic(double x) {
+  if (!(x > 0)) return 0;
+  return x < 1e6 ? std::min(1.0, x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)) : 1.0;
+}
+
 // sRGB bytes by table: index i stands for the linear value (i / 4095)^2. One index is at most 0.1 of a byte step, so the
 // result is the nearest byte but for values within 0.05 of a step from the middle between two.
 std::array<std::uint8_t, 4096> make_byte_table() {
@@ -78,9 +84,11 @@ ByteImage tone_map(const Image& image, const ToneMapOptions& options) {
       const float* pixel = image.pixels.data() + i * image.channels;
       const double l = exposure * luminance(pixel, image.channels);
       const double gain =
-          options.curve == ToneCurve::clamp ? exposure : exposure * reinhard_gain(l, options.white);
+          options.curve == ToneCurve::reinhard ? exposure * reinhard_gain(l, options.white) : exposure;
       for (int c = 0; c < image.channels; ++c) {
-        result.pixels[i * image.channels + c] = to_byte(gain * pixel[c], table);
+        const double value = gain * pixel[c];
+        result.pixels[i * image.channels + c] =
+            to_byte(options.curve == ToneCurve::filmic ? filmic(value) : value, table);
       }
     }
   });

@@ -9,6 +9,7 @@ namespace welkin {
 enum class ToneCurve {
   clamp,     ///< nothing but exposure: what is above 1 is white
   reinhard,  ///< compresses luminance (Reinhard et al. 2002, eq. 4), keeps hue until a channel clips
+  filmic,  ///< each channel by the S-curve that Narkowicz (2015, "ACES filmic tone mapping curve") fitted to ACES
 };
 
 struct ToneMapOptions {
