@@ -49,6 +49,15 @@ TEST(ToneMap, ReinhardMapsWhiteToWhite) {
   EXPECT_EQ(bytes.pixels[1], 188);
 }
 
+// Narkowicz's curve at 0.18, by hand: 0.18 (2.51 0.18 + 0.03) / (0.18 (2.43 0.18 + 0.59) + 0.14) = 0.26690, the byte 141;
+// it is 1 from 3.3 on.
+TEST(ToneMap, FilmicCurve) {
+  Image image(4, 1, 1);
+  image.pixels = {0.18f, 10, 0, std::numeric_limits<float>::infinity()};
+  EXPECT_EQ(tone_map(image, {.exposure_ev = 0, .curve = ToneCurve::filmic}).pixels,
+            (std::vector<std::uint8_t>{141, 255, 0, 255}));
+}
+
 TEST(ToneMap, FaultsBecomeBlackOrWhite) {
   Image image(3, 1, 1);
   image.pixels = {std::nanf(""), -1, std::numeric_limits<float>::infinity()};
