@@ -205,6 +205,36 @@ ByteImage smooth_picture(int channels) {
 }
 
 // A constant block has only its mean, which level shift and quantizer 1 keep: 128 is coded as 0.
+// Alpha as stored, colour as stored or through the curve.
+TEST(Png, TexturesKeepTheirAlpha) {
+  for (const PngForm& form :
+       {PngForm{.color = PngColor::rgba}, PngForm{.color = PngColor::rgba, .bits = 16}}) {
+    const float largest = static_cast<float>((1 << form.bits) - 1);
+    const Image plain = decode_ldr_texture(png_of(form), "test", LdrEncoding::linear);
+    const Image curved = decode_ldr_texture(png_of(form), "test", LdrEncoding::srgb);
+    ASSERT_EQ(plain.channels, 4);
+    for (int i = 0; i < form.width * form.height * 4; ++i) {
+      const int x = i / 4 % form.width, y = i / 4 / form.width, c = i % 4;
+      const float value = static_cast<float>(stored(form, x, y, c)) / largest;
+      ASSERT_EQ(plain.pixels[i], value) << words(form);
+      ASSERT_EQ(curved.pixels[i], c == 3 ? value : expected(form, x, y, c)) << words(form);
+    }
+  }
+}
+
+TEST(Png, TexturesTakeAlphaFromPalettesAndTransparentColours) {
+  const PngForm palette{.color = PngColor::palette, .transparent_color = true, .palette = full_palette(8)};
+  const Image looked_up = decode_ldr_texture(png_of(palette), "test", LdrEncoding::srgb);
+  ASSERT_EQ(looked_up.channels, 4);
+  EXPECT_EQ(looked_up.at(3, 4)[1], expected(palette, 3, 4, 1));
+  EXPECT_EQ(looked_up.at(3, 4)[3], 7.0f / 255);
+  const PngForm gray{.color = PngColor::gray, .transparent_color = true};  // 0 is transparent
+  const Image keyed = decode_ldr_texture(png_of(gray), "test", LdrEncoding::linear);
+  ASSERT_EQ(keyed.channels, 4);
+  for (int x = 0; x < 13; ++x) EXPECT_EQ(keyed.at(x, 0)[3], stored(gray, x, 0, 0) == 0 ? 0.0f : 1.0f);
+  EXPECT_EQ(decode_ldr_texture(png_of({}), "test", LdrEncoding::linear).channels, 3);
+}
+
 TEST(Jpeg, ConstantGrayIsExact) {
   ByteImage image(16, 16);
   std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{128});

@@ -28,32 +28,52 @@ std::vector<float> linear_values(std::size_t count) {
   return table;
 }
 
-Image to_linear(const LdrSamples& samples) {
-  Image image(samples.width, samples.height);
+// Colour through the table of the sRGB curve or, as alpha always, divided by the largest value.
+template <class Read>
+void fill(Image& image, float largest, const std::vector<float>* curve, Read&& read) {
+  const int colors = curve == nullptr ? 0 : 3;
+  for (std::size_t i = 0; i < image.pixels.size(); i += static_cast<std::size_t>(image.channels)) {
+    for (int c = 0; c < image.channels; ++c) {
+      const std::size_t value = read(i + c);
+      image.pixels[i + c] = c < colors ? (*curve)[value] : static_cast<float>(value) / largest;
+    }
+  }
+}
+
+Image to_linear(const LdrSamples& samples, LdrEncoding encoding) {
+  Image image(samples.width, samples.height, samples.channels);
   const std::uint8_t* bytes = samples.bytes.data();
+  const bool srgb = encoding == LdrEncoding::srgb;
   if (samples.bits == 16) {
     static const std::vector<float> table = linear_values(65536);
-    for (float& pixel : image.pixels) {
-      pixel = table[static_cast<std::size_t>(bytes[0] << 8 | bytes[1])];
-      bytes += 2;
-    }
+    fill(image, 65535, srgb ? &table : nullptr,
+         [bytes](std::size_t i) { return static_cast<std::size_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]); });
   } else {
     static const std::vector<float> table = linear_values(256);
-    for (float& pixel : image.pixels) pixel = table[*bytes++];
+    fill(image, 255, srgb ? &table : nullptr, [bytes](std::size_t i) { return std::size_t{bytes[i]}; });
   }
   return image;
+}
+
+bool is_png(std::span<const std::uint8_t> bytes, std::string_view name) {
+  const bool png = starts_with(bytes, png_magic);
+  if (!png && !starts_with(bytes, jpeg_magic)) throw Error(name, "neither a PNG nor a JPEG file");
+  return png;
 }
 
 }  // namespace
 
 LoadedImage decode_ldr(std::span<const std::uint8_t> bytes, std::string_view name) {
-  const bool png = starts_with(bytes, png_magic), jpeg = starts_with(bytes, jpeg_magic);
-  if (!png && !jpeg) throw Error(name, "neither a PNG nor a JPEG file");
+  const bool png = is_png(bytes, name);
   LoadedImage loaded;
   loaded.format = png ? "PNG" : "JPEG";
-  loaded.flat = to_linear(png ? read_png(bytes, name) : read_jpeg(bytes, name));
+  loaded.flat = to_linear(png ? read_png(bytes, name) : read_jpeg(bytes, name), LdrEncoding::srgb);
   loaded.warnings.push_back(loaded.format + " is not HDR: light above white is lost");
   return loaded;
+}
+
+Image decode_ldr_texture(std::span<const std::uint8_t> bytes, std::string_view name, LdrEncoding encoding) {
+  return to_linear(is_png(bytes, name) ? read_png(bytes, name, true) : read_jpeg(bytes, name), encoding);
 }
 
 }  // namespace welkin

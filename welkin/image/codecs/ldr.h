@@ -20,6 +20,12 @@ namespace welkin {
 /// 1,000,000, and for anything damaged or truncated: a wrong check sum or a warning of the library counts as damage.
 LoadedImage decode_ldr(std::span<const std::uint8_t> bytes, std::string_view name);
 
+/// What the numbers of a texture are: colours through the sRGB curve, or plain numbers (normals, roughness).
+enum class LdrEncoding : std::uint8_t { srgb, linear };
+
+/// The same for a texture: linear values, 0 to 1, with 4 channels where a PNG has alpha (which is never encoded), else 3.
+Image decode_ldr_texture(std::span<const std::uint8_t> bytes, std::string_view name, LdrEncoding encoding);
+
 /// Encodes 8-bit gray (1 channel) or RGB (3) as PNG.
 std::vector<std::uint8_t> encode_png(const ByteImage& image);
 

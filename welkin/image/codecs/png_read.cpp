@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include <welkin/error.h>
 #include <welkin/image/codecs/ldr_samples.h>
@@ -68,27 +69,28 @@ void set_strictness(png_structp png) {
   png_set_check_for_invalid_index(png, 0);  // look_up does
 }
 
-// Of the chunks that may be left out, none is used. Skipping them also keeps profiles and compressed texts from being
+// Of the chunks that may be left out, none is used but, for alpha, tRNS. Skipping them also keeps profiles and compressed texts from being
 // unpacked. A negative count names all that libpng knows, except the transparent colours.
-bool read_header(png_structp png, png_infop info, Source* source) {
+bool read_header(png_structp png, png_infop info, Source* source, bool keep_alpha) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_read_fn(png, source, read_bytes);
   set_strictness(png);
   png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
-  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, reinterpret_cast<png_const_bytep>("tRNS"), 1);
+  if (!keep_alpha)
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, reinterpret_cast<png_const_bytep>("tRNS"), 1);
   png_read_info(png, info);
   return true;
 }
 
-// RGB, or one byte of palette index per pixel.
-bool set_row_form(png_structp png, png_infop info) {
+// RGB or RGBA, or one byte of palette index per pixel.
+bool set_row_form(png_structp png, png_infop info, bool keep_alpha) {
   if (setjmp(png_jmpbuf(png))) return false;
   if (png_get_color_type(png, info) == PNG_COLOR_TYPE_PALETTE) {
     png_set_packing(png);
   } else {
     png_set_expand(png);
     png_set_gray_to_rgb(png);
-    png_set_strip_alpha(png);
+    if (!keep_alpha) png_set_strip_alpha(png);
   }
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
@@ -107,18 +109,22 @@ bool read_rows(png_structp png, png_infop info, std::uint8_t* rows, std::size_t 
   return true;
 }
 
-std::vector<std::uint8_t> look_up(const std::vector<std::uint8_t>& indices, png_structp png, png_infop info,
-                                  std::string_view name) {
+// Replaces indices by colours. Those beyond the list of transparencies are opaque.
+void look_up(LdrSamples& samples, const Reader& reader, bool keep_alpha, std::string_view name) {
   png_colorp palette = nullptr;
-  int count = 0;
-  png_get_PLTE(png, info, &palette, &count);
-  std::vector<std::uint8_t> rgb;
-  rgb.reserve(indices.size() * 3);
-  for (std::uint8_t index : indices) {
+  png_bytep alpha = nullptr;
+  int count = 0, alpha_count = 0;
+  png_get_PLTE(reader.png, reader.info, &palette, &count);
+  if (keep_alpha) png_get_tRNS(reader.png, reader.info, &alpha, &alpha_count, nullptr);
+  samples.channels = alpha_count > 0 ? 4 : 3;
+  std::vector<std::uint8_t> colors;
+  colors.reserve(samples.bytes.size() * samples.channels);
+  for (std::uint8_t index : samples.bytes) {
     if (index >= count) throw Error(name, "this PNG is damaged: a pixel is outside the palette");
-    rgb.insert(rgb.end(), {palette[index].red, palette[index].green, palette[index].blue});
+    colors.insert(colors.end(), {palette[index].red, palette[index].green, palette[index].blue});
+    if (samples.channels == 4) colors.push_back(index < alpha_count ? alpha[index] : std::uint8_t{255});
   }
-  return rgb;
+  samples.bytes = std::move(colors);
 }
 
 [[noreturn]] void fail(const Reader& reader, std::string_view name) {
@@ -127,23 +133,26 @@ std::vector<std::uint8_t> look_up(const std::vector<std::uint8_t>& indices, png_
 
 }  // namespace
 
-LdrSamples read_png(std::span<const std::uint8_t> bytes, std::string_view name) {
+LdrSamples read_png(std::span<const std::uint8_t> bytes, std::string_view name, bool keep_alpha) {
   Reader reader(bytes);
   png_structp png = reader.png;
-  if (!reader.info || !read_header(png, reader.info, &reader.source)) fail(reader, name);
+  if (!reader.info || !read_header(png, reader.info, &reader.source, keep_alpha)) fail(reader, name);
   const auto width = png_get_image_width(png, reader.info), height = png_get_image_height(png, reader.info);
   const int pixel_bits = png_get_bit_depth(png, reader.info) * png_get_channels(png, reader.info);
   constexpr double deflate_ratio = 1032;  // no stream unpacks to more
   check_image_size(name, width, height, bytes.size(), 8 * deflate_ratio / pixel_bits);
 
-  if (!set_row_form(png, reader.info)) fail(reader, name);
-  LdrSamples samples{
-      static_cast<int>(width), static_cast<int>(height), png_get_bit_depth(png, reader.info), {}};
+  if (!set_row_form(png, reader.info, keep_alpha)) fail(reader, name);
+  LdrSamples samples{static_cast<int>(width),
+                     static_cast<int>(height),
+                     png_get_bit_depth(png, reader.info),
+                     png_get_channels(png, reader.info),
+                     {}};
   const std::size_t row_bytes = png_get_rowbytes(png, reader.info);
   samples.bytes.resize(row_bytes * height);
   if (!read_rows(png, reader.info, samples.bytes.data(), row_bytes)) fail(reader, name);
   if (png_get_color_type(png, reader.info) == PNG_COLOR_TYPE_PALETTE) {
-    samples.bytes = look_up(samples.bytes, png, reader.info, name);
+    look_up(samples, reader, keep_alpha, name);
   }
   return samples;
 }
