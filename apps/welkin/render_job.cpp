@@ -10,6 +10,7 @@
 #include <welkin/error.h>
 #include <welkin/pathtrace/fingerprint.h>
 #include <welkin/scene/built_in.h>
+#include <welkin/scene/read_scene.h>
 
 namespace welkin {
 namespace {
@@ -63,7 +64,7 @@ Scene load_scene(const RenderCommand& command) {
       throw CLI::ValidationError("--scene", error.what());
     }
   }
-  throw Error(command.file, "scene files are not read yet");
+  return read_scene(command.file);
 }
 
 std::string camera_names(const Scene& scene) {

@@ -1,0 +1,17 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <welkin/scene/file_resolver.h>
+#include <welkin/scene/scene.h>
+
+namespace welkin {
+
+/// Reads glTF 2.0, as JSON or GLB (docs/scenes.md has what of it). One mesh for every primitive, one instance for every
+/// primitive of a node's mesh, in the order of the node tree, children after their parent. `resolve` gives external
+/// buffers and images. Throws Error naming `name` for anything damaged, missing, out of range, compressed, or without a
+/// triangle; memory that is taken stays below a multiple of the file's size.
+Scene decode_gltf(std::span<const std::uint8_t> bytes, std::string_view name, const FileResolver& resolve);
+
+}  // namespace welkin
