@@ -5,10 +5,10 @@
 #include <cstring>
 #include <vector>
 
-#include "bench/measure.h"
 #include <welkin/parallel/parallel_for.h>
 #include <welkin/pathtrace/render_sample.h>
 #include <welkin/raytrace/flush_denormals.h>
+#include "bench/measure.h"
 
 namespace {
 
@@ -24,13 +24,13 @@ struct Recorder {
   const RayScene& scene;
   std::vector<LoggedRay>& log;
 
-  std::optional<Hit> closest(const Ray& ray) {
-    log.push_back({ray, false});
-    return scene.closest(ray);
+  std::uint32_t closest(std::span<const Ray> rays, Hit* hits) {
+    for (const Ray& ray : rays) log.push_back({ray, false});
+    return scene.closest(rays, hits);
   }
-  bool occluded(const Ray& ray) {
-    log.push_back({ray, true});
-    return scene.occluded(ray);
+  std::uint32_t occluded(std::span<const Ray> rays) {
+    for (const Ray& ray : rays) log.push_back({ray, true});
+    return scene.occluded(rays);
   }
 };
 
@@ -61,8 +61,8 @@ class BareEmbree {
     for (const LoggedRay& logged : rays) {
       const Ray& r = logged.ray;
       RTCRayHit query;
-      query.ray = {r.origin.x,    r.origin.y,    r.origin.z, r.near, r.direction.x, r.direction.y,
-                   r.direction.z, 0,             r.far,      ~0u,    0,             0};
+      query.ray = {r.origin.x, r.origin.y, r.origin.z, r.near, r.direction.x, r.direction.y, r.direction.z, 0,
+                   r.far,      ~0u,        0,          0};
       if (logged.shadow) {
         rtcOccluded1(top_, &context, &query.ray);
         met += query.ray.tfar < 0;
@@ -112,7 +112,8 @@ Scene hills(int n) {
   scene.source = "hills";
   Mesh mesh;
   const auto height = [](float x, float z) {
-    return 0.25f * std::sin(2.1f * x) * std::cos(1.7f * z) + 0.04f * std::sin(11 * x + 3 * z) * std::cos(9 * z);
+    return 0.25f * std::sin(2.1f * x) * std::cos(1.7f * z) +
+           0.04f * std::sin(11 * x + 3 * z) * std::cos(9 * z);
   };
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
@@ -153,7 +154,8 @@ EnvironmentSampler sky() {
   Image map(512, 256);
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
-      const float up = 1 - static_cast<float>(y) / 128, sun = std::hypot(static_cast<float>(x - 180), static_cast<float>(y - 60));
+      const float up = 1 - static_cast<float>(y) / 128,
+                  sun = std::hypot(static_cast<float>(x - 180), static_cast<float>(y - 60));
       float* p = map.at(x, y);
       p[0] = up > 0 ? 0.4f + 0.3f * (1 - up) : 0.2f;
       p[1] = up > 0 ? 0.5f + 0.3f * (1 - up) : 0.18f;
@@ -166,16 +168,15 @@ EnvironmentSampler sky() {
 
 Camera view_of(const Scene& scene) { return default_camera(*scene_bounds(scene), 1.5); }
 
-constexpr PictureSize size{384, 256};
-constexpr int rows_per_chunk = 4;
+constexpr PictureSize size{192, 128};
+constexpr int rows_per_chunk = 2;
 constexpr std::size_t chunks = size.height / rows_per_chunk;
 
-template <class Sample>
-void for_all_samples(std::size_t chunk, std::uint32_t samples, Sample&& sample) {
-  for (int y = static_cast<int>(chunk) * rows_per_chunk; y < static_cast<int>(chunk + 1) * rows_per_chunk; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      for (std::uint32_t i = 0; i < samples; ++i) sample(x, y, i);
-    }
+template <class Pixel>
+void for_all_pixels(std::size_t chunk, Pixel&& pixel) {
+  for (int y = static_cast<int>(chunk) * rows_per_chunk; y < static_cast<int>(chunk + 1) * rows_per_chunk;
+       ++y) {
+    for (int x = 0; x < size.width; ++x) pixel(x, y);
   }
 }
 
@@ -191,8 +192,9 @@ void compare(bench::Report& report, const RenderScene& render, const BareEmbree&
   std::vector<std::vector<LoggedRay>> logs(chunks);
   parallel_for(chunks, 1, [&](std::size_t begin, std::size_t) {
     Recorder recorder{render.tables().rays, logs[begin]};
-    for_all_samples(begin, work.samples, [&](int x, int y, std::uint32_t i) {
-      render_sample_with(recorder, render, camera, size, x, y, i, work.options);
+    std::vector<PixelSample> samples(work.samples);
+    for_all_pixels(begin, [&](int x, int y) {
+      render_samples_with(recorder, render, camera, size, x, y, 0, samples, work.options);
     });
   });
   std::size_t rays = 0;
@@ -202,9 +204,12 @@ void compare(bench::Report& report, const RenderScene& render, const BareEmbree&
   for (int run = 0; run < 9; ++run) {
     own_seconds.push_back(bench::seconds_of([&] {
       parallel_for(chunks, 1, [&](std::size_t begin, std::size_t) {
+        const FlushDenormals flush;
         double sum = 0;
-        for_all_samples(begin, work.samples, [&](int x, int y, std::uint32_t i) {
-          sum += luminance(render_sample(render, camera, size, x, y, i, work.options).radiance);
+        std::vector<PixelSample> samples(work.samples);
+        for_all_pixels(begin, [&](int x, int y) {
+          render_samples(render, camera, size, x, y, 0, samples, work.options);
+          for (const PixelSample& s : samples) sum += luminance(s.radiance);
         });
         sums[begin] = sum;
       });
@@ -221,10 +226,11 @@ void compare(bench::Report& report, const RenderScene& render, const BareEmbree&
   double mean = 0;
   for (const double s : sums) mean += s / (size.width * size.height * static_cast<double>(work.samples));
   const double count = static_cast<double>(rays);
-  report.note(fmt::format(
-      "{:<28} {:>7.2f} M rays/s   bare Embree {:>7.2f} M rays/s   share {:.2f} (goal {:.2f}) {}   {:.1f} M rays, mean {:.4f}",
-      work.name, count / own.best / 1e6, count / other.best / 1e6, share, work.goal,
-      share >= work.goal ? "reached" : "MISSED", count / 1e6, mean));
+  report.note(
+      fmt::format("{:<28} {:>7.2f} M rays/s   bare Embree {:>7.2f} M rays/s   share {:.2f} (goal {:.2f}) {}  "
+                  " {:.1f} M rays, mean {:.4f}",
+                  work.name, count / own.best / 1e6, count / other.best / 1e6, share, work.goal,
+                  share >= work.goal ? "reached" : "MISSED", count / 1e6, mean));
 }
 
 }  // namespace
@@ -236,15 +242,16 @@ int main() {
   const RenderScene render(scene, &environment);
   const BareEmbree bare(scene);
   const Camera camera = view_of(scene);
-  report.note(fmt::format("{}: {} triangles, {} threads", scene.source, scene.meshes[0].triangles.size(), thread_count()));
+  report.note(fmt::format("{}: {} triangles, {} threads", scene.source, scene.meshes[0].triangles.size(),
+                          thread_count()));
   IntegratorOptions occlusion;
   occlusion.integrator = Integrator::ambient_occlusion;
   occlusion.occlusion_rays = 16;
-  compare(report, render, bare, camera, {"ambient occlusion, 16 rays", occlusion, 1, 0.8});
+  compare(report, render, bare, camera, {"ambient occlusion, 16 rays", occlusion, 4, 0.8});
   IntegratorOptions direct;
   direct.integrator = Integrator::direct;
-  compare(report, render, bare, camera, {"direct, mis", direct, 4, 0.6});
+  compare(report, render, bare, camera, {"direct, mis", direct, 16, 0.6});
   IntegratorOptions path;
-  compare(report, render, bare, camera, {"path, mis", path, 2, 0.6});
+  compare(report, render, bare, camera, {"path, mis", path, 16, 0.6});
   return report.exit_code();
 }

@@ -1,6 +1,6 @@
 #include <welkin/pathtrace/camera_ray.h>
 
-#include <cmath>
+#include <welkin/sampling/warp.h>
 
 namespace welkin {
 
@@ -16,9 +16,9 @@ Ray camera_ray(const Camera& camera, PictureSize size, float x, float y) {
     ray.direction = normalized(-frame.z);
     return ray;
   }
-  const float half = std::tan(camera.vertical_field_radians / 2);
+  const Vec2f half = cos_sin_turns(camera.vertical_field_radians / (4 * pi_f));
   ray.origin = frame.origin;
-  ray.direction = normalized((right * half) * frame.x + (up * half) * frame.y - frame.z);
+  ray.direction = normalized((right * half.y) * frame.x + (up * half.y) * frame.y - half.x * frame.z);
   return ray;
 }
 

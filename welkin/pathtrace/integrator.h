@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include <welkin/envmap/importance/environment_sampler.h>
 #include <welkin/image/rgb.h>
@@ -70,5 +71,11 @@ struct PictureSize {
 /// Sample `index` of pixel (x, y), (0, 0) at the top left, somewhere in the pixel (box filter).
 PixelSample render_sample(const RenderScene& scene, const Camera& camera, PictureSize size, int x, int y,
                           std::uint32_t index, const IntegratorOptions& options);
+
+/// Samples first, first + 1, ... of pixel (x, y): faster, since the rays of 16 samples are traced together. The same calls
+/// give the same bytes; cut into other calls, samples may differ by rounding (RayScene::closest of batches). Threads that
+/// call often should hold a FlushDenormals.
+void render_samples(const RenderScene& scene, const Camera& camera, PictureSize size, int x, int y,
+                    std::uint32_t first, std::span<PixelSample> samples, const IntegratorOptions& options);
 
 }  // namespace welkin

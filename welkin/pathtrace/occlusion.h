@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <span>
 
 #include <welkin/pathtrace/camera_ray.h>
 #include <welkin/pathtrace/render_scene.h>
@@ -16,40 +17,65 @@ class OcclusionTracer {
   OcclusionTracer(const RenderScene::Tables& tables, const IntegratorOptions& options, Rays& rays)
       : tables_(tables), options_(options), rays_(rays) {}
 
-  /// index and seed are the sample's: its rays are numbered on through all samples of the pixel.
-  void trace(const Ray& ray, std::uint32_t index, std::uint32_t seed, PixelSample& sample, Vec3f& first) {
-    const std::optional<Hit> hit = rays_.closest(ray);
-    if (!hit) {
-      if (options_.show_environment) sample.radiance = {1, 1, 1};
-      return;
+  /// One sample of a pixel: its number, the pixel's seed, and what it fills.
+  struct Sample {
+    std::uint32_t index = 0, seed = 0;
+    PixelSample* pixel = nullptr;
+    Vec3f first;
+  };
+
+  void trace(std::span<const Ray> camera_rays, Sample* samples) {
+    Hit hits[RayScene::batch_size];
+    const std::uint32_t met = rays_.closest(camera_rays, hits);
+    for (std::size_t i = 0; i < camera_rays.size(); ++i) {
+      if ((met >> i & 1) != 0) {
+        look_around(camera_rays[i], hits[i], samples[i]);
+      } else if (options_.show_environment) {
+        samples[i].pixel->radiance = {1, 1, 1};
+      }
     }
-    ShadingPoint point;
-    point.surface = surface_at(tables_.rays, *hit, ray);
-    prepare_shading(tables_.scene, tables_.materials, ray.direction, point);
-    first = point.surface.position;
-    sample.coverage = 1;
-    sample.normal = point.frame.normal;
-    sample.albedo = approximate_albedo(*point.scatter, point.view);
-    const std::uint32_t count = std::max(options_.occlusion_rays, 1);
-    int open = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      open += is_open(point, SampleStream(index * count + i, seed ^ 0x5bd1e995u).next_2d());
-    }
-    const float share = static_cast<float>(open) / static_cast<float>(count);
-    sample.radiance = {share, share, share};
+    flush();
   }
 
  private:
-  bool is_open(const ShadingPoint& point, Vec2f u) {
-    const Vec3f direction = point.frame.to_world(warp_to_cosine_hemisphere(u));
-    if (!point.faces(direction)) return false;
-    return !rays_.occluded(
-        {leave_surface(point.surface, direction), 0, direction, options_.occlusion_distance});
+  /// The rays of a surface are numbered on through all samples of the pixel, so that they are stratified together.
+  void look_around(const Ray& ray, const Hit& hit, Sample& sample) {
+    ShadingPoint point;
+    point.surface = surface_at(tables_.rays, hit, ray);
+    prepare_shading(tables_.scene, tables_.materials, ray.direction, point);
+    sample.first = point.surface.position;
+    sample.pixel->coverage = 1;
+    sample.pixel->normal = point.frame.normal;
+    sample.pixel->albedo = approximate_albedo(*point.scatter, point.view);
+    const std::uint32_t count = std::max(options_.occlusion_rays, 1);
+    share_ = 1 / static_cast<float>(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Vec2f u = SampleStream(sample.index * count + i, sample.seed ^ 0x5bd1e995u).next_2d();
+      const Vec3f direction = point.frame.to_world(warp_to_cosine_hemisphere(u));
+      if (!point.faces(direction)) continue;
+      pending_[pending_count_] = {leave_surface(point.surface, direction), 0, direction,
+                                  options_.occlusion_distance};
+      owner_[pending_count_++] = sample.pixel;
+      if (pending_count_ == RayScene::batch_size) flush();
+    }
+  }
+
+  /// Traces what is pending; each open ray counts for its sample.
+  void flush() {
+    const std::uint32_t hidden = rays_.occluded(std::span<const Ray>(pending_, pending_count_));
+    for (std::size_t i = 0; i < pending_count_; ++i) {
+      if ((hidden >> i & 1) == 0) owner_[i]->radiance += Rgb{share_, share_, share_};
+    }
+    pending_count_ = 0;
   }
 
   const RenderScene::Tables& tables_;
   const IntegratorOptions& options_;
   Rays& rays_;
+  Ray pending_[RayScene::batch_size];
+  PixelSample* owner_[RayScene::batch_size];
+  std::size_t pending_count_ = 0;
+  float share_ = 1;
 };
 
 }  // namespace welkin

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -41,50 +42,68 @@ std::uint32_t mixed(std::uint32_t hash, std::uint32_t word) {
   return (hash ^ (hash >> 15)) * 0x85ebca77u;
 }
 
-/// A number in [0, 1) that is the same for the same ray and primitive, and else as good as random.
-float ray_hash(const RTCRay& ray, std::uint32_t object, std::uint32_t primitive) {
-  std::uint32_t hash = mixed(object, primitive);
-  for (const float value : {ray.org_x, ray.org_y, ray.org_z, ray.dir_x, ray.dir_y, ray.dir_z}) {
-    hash = mixed(hash, bits_of(value));
-  }
-  hash ^= hash >> 13;
-  return static_cast<float>(hash >> 8) * 0x1p-24f;
-}
-
 Vec2f interpolated(const std::vector<Vec2f>& values, const std::array<std::uint32_t, 3>& corners, float u,
                    float v) {
   if (values.empty()) return {};
   return (1 - u - v) * values[corners[0]] + u * values[corners[1]] + v * values[corners[2]];
 }
 
-/// Embree's filter for single rays: says that there is no hit where the material has a hole.
-void pass_holes(const RTCFilterFunctionNArguments* arguments) {
-  const CutOut& cut = *static_cast<const CutOut*>(arguments->geometryUserPtr);
-  const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
-  const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
+/// A ray and a hit of those that Embree hands to a filter.
+struct Candidate {
+  Vec3f origin, direction;
+  float distance = 0, u = 0, v = 0;
+  unsigned object = 0, primitive = 0;
+};
+
+Candidate candidate(const RTCFilterFunctionNArguments& a, unsigned i) {
+  const unsigned n = a.N, instance = RTCHitN_instID(a.hit, n, i, 0);
+  return {{RTCRayN_org_x(a.ray, n, i), RTCRayN_org_y(a.ray, n, i), RTCRayN_org_z(a.ray, n, i)},
+          {RTCRayN_dir_x(a.ray, n, i), RTCRayN_dir_y(a.ray, n, i), RTCRayN_dir_z(a.ray, n, i)},
+          RTCRayN_tfar(a.ray, n, i),
+          RTCHitN_u(a.hit, n, i),
+          RTCHitN_v(a.hit, n, i),
+          instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(a.hit, n, i),
+          RTCHitN_primID(a.hit, n, i)};
+}
+
+/// A number in [0, 1) that is the same for the same ray and primitive, and else as good as random.
+float ray_hash(const Candidate& c) {
+  std::uint32_t hash = mixed(c.object, c.primitive);
+  for (const float value :
+       {c.origin.x, c.origin.y, c.origin.z, c.direction.x, c.direction.y, c.direction.z}) {
+    hash = mixed(hash, bits_of(value));
+  }
+  hash ^= hash >> 13;
+  return static_cast<float>(hash >> 8) * 0x1p-24f;
+}
+
+bool is_hole(const CutOut& cut, const Candidate& c) {
   const Scene& scene = *cut.scene;
   Vec2f texcoords[2];
   int material_index = 0;
   if (cut.mesh != nullptr) {
     material_index = cut.mesh->material;
-    const auto& corners = cut.mesh->triangles[hit.primID];
-    for (int i = 0; i < 2; ++i) {
-      texcoords[i] = interpolated(cut.mesh->texcoords[i], corners, hit.u, hit.v);
-    }
+    const auto& corners = cut.mesh->triangles[c.primitive];
+    for (int i = 0; i < 2; ++i) texcoords[i] = interpolated(cut.mesh->texcoords[i], corners, c.u, c.v);
   } else {
-    const Sphere& sphere = scene.spheres[hit.primID];
+    const Sphere& sphere = scene.spheres[c.primitive];
     material_index = sphere.material;
-    const Vec3f direction{ray.dir_x, ray.dir_y, ray.dir_z};
-    const Vec3f position = Vec3f{ray.org_x, ray.org_y, ray.org_z} + ray.tfar * direction;
-    texcoords[0] = texcoords[1] = sphere_texcoord(normalized(position - sphere.centre));
+    texcoords[0] = texcoords[1] =
+        sphere_texcoord(normalized(c.origin + c.distance * c.direction - sphere.centre));
   }
   const Material& material = scene.materials[material_index];
-  if (material.alpha_mode == AlphaMode::opaque) return;
+  if (material.alpha_mode == AlphaMode::opaque) return false;
   const float coverage = coverage_at(scene, material, texcoords);
-  const float needed = material.alpha_mode == AlphaMode::mask
-                           ? material.alpha_cutoff
-                           : ray_hash(ray, hit.geomID ^ hit.instID[0], hit.primID) + 1e-9f;
-  if (coverage < needed) arguments->valid[0] = 0;
+  if (material.alpha_mode == AlphaMode::mask) return coverage < material.alpha_cutoff;
+  return coverage <= ray_hash(c);
+}
+
+/// Embree's filter: says that there is no hit where the material has a hole.
+void pass_holes(const RTCFilterFunctionNArguments* arguments) {
+  const CutOut& cut = *static_cast<const CutOut*>(arguments->geometryUserPtr);
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    if (arguments->valid[i] == -1 && is_hole(cut, candidate(*arguments, i))) arguments->valid[i] = 0;
+  }
 }
 
 bool has_holes(const Scene& scene, int material) {
@@ -279,53 +298,144 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 const Scene& RayScene::scene() const { return *tree_->scene; }
 const std::vector<PlacedMesh>& RayScene::placed() const { return tree_->placed; }
 
+namespace {
+
+/// What Embree found, as a Hit. Spheres are all one geometry, behind those of the instances.
+Hit hit_of(float distance, unsigned geometry, unsigned instance, unsigned primitive, float u, float v,
+           std::size_t instances) {
+  Hit hit{distance, geometry, primitive, u, v};
+  if (instance != RTC_INVALID_GEOMETRY_ID) {
+    hit.object = instance;
+  } else if (geometry == instances) {
+    hit.object += primitive;
+    hit.triangle = 0;
+  }
+  return hit;
+}
+
+RTCRay single(const Ray& ray) {
+  return {ray.origin.x,
+          ray.origin.y,
+          ray.origin.z,
+          ray.near,
+          ray.direction.x,
+          ray.direction.y,
+          ray.direction.z,
+          0,
+          ray.far,
+          ~0u,
+          0,
+          0};
+}
+
+/// Fills the first lanes of Embree's packet; the others are off.
+template <class Packet>
+void fill(std::span<const Ray> rays, Packet& packet, int* valid, std::size_t lanes) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const Ray& ray = rays[std::min(i, rays.size() - 1)];
+    valid[i] = i < rays.size() ? -1 : 0;
+    packet.org_x[i] = ray.origin.x;
+    packet.org_y[i] = ray.origin.y;
+    packet.org_z[i] = ray.origin.z;
+    packet.tnear[i] = ray.near;
+    packet.dir_x[i] = ray.direction.x;
+    packet.dir_y[i] = ray.direction.y;
+    packet.dir_z[i] = ray.direction.z;
+    packet.time[i] = 0;
+    packet.tfar[i] = ray.far;
+    packet.mask[i] = ~0u;
+    packet.id[i] = 0;
+    packet.flags[i] = 0;
+  }
+}
+
+template <class Packet, std::size_t lanes, class Trace>
+std::uint32_t closest_of(std::span<const Ray> rays, Hit* hits, std::size_t instances, Trace trace) {
+  Packet packet;
+  alignas(64) int valid[lanes];
+  fill(rays, packet.ray, valid, lanes);
+  for (std::size_t i = 0; i < lanes; ++i) {
+    packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  trace(valid, packet);
+  std::uint32_t met = 0;
+  const auto& found = packet.hit;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (found.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    met |= 1u << i;
+    hits[i] = hit_of(packet.ray.tfar[i], found.geomID[i], found.instID[0][i], found.primID[i], found.u[i],
+                     found.v[i], instances);
+  }
+  return met;
+}
+
+template <class Packet, std::size_t lanes, class Trace>
+std::uint32_t occluded_of(std::span<const Ray> rays, Trace trace) {
+  Packet packet;
+  alignas(64) int valid[lanes];
+  fill(rays, packet, valid, lanes);
+  trace(valid, packet);
+  std::uint32_t met = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) met |= (packet.tfar[i] < 0 ? 1u : 0u) << i;
+  return met;
+}
+
+}  // namespace
+
 std::optional<Hit> RayScene::closest(const Ray& ray) const {
   RTCRayHit query;
-  query.ray = {ray.origin.x,
-               ray.origin.y,
-               ray.origin.z,
-               ray.near,
-               ray.direction.x,
-               ray.direction.y,
-               ray.direction.z,
-               0,
-               ray.far,
-               ~0u,
-               0,
-               0};
+  query.ray = single(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(tree_->top.get(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  Hit hit{query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
-  if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
-    hit.object = query.hit.instID[0];
-  } else if (hit.object == tree_->placed.size()) {
-    hit.object += hit.triangle;
-    hit.triangle = 0;
-  }
-  return hit;
+  return hit_of(query.ray.tfar, query.hit.geomID, query.hit.instID[0], query.hit.primID, query.hit.u,
+                query.hit.v, tree_->placed.size());
 }
 
 bool RayScene::occluded(const Ray& ray) const {
-  RTCRay query{ray.origin.x,
-               ray.origin.y,
-               ray.origin.z,
-               ray.near,
-               ray.direction.x,
-               ray.direction.y,
-               ray.direction.z,
-               0,
-               ray.far,
-               ~0u,
-               0,
-               0};
+  RTCRay query = single(ray);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(tree_->top.get(), &context, &query);
   return query.tfar < 0;
+}
+
+std::uint32_t RayScene::closest(std::span<const Ray> rays, Hit* hits) const {
+  assert(rays.size() <= batch_size);
+  if (rays.size() <= 1) {
+    const std::optional<Hit> hit = rays.empty() ? std::nullopt : closest(rays[0]);
+    if (hit) hits[0] = *hit;
+    return hit ? 1 : 0;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCScene top = tree_->top.get();
+  const std::size_t instances = tree_->placed.size();
+  if (rays.size() <= 8) {
+    return closest_of<RTCRayHit8, 8>(rays, hits, instances, [&](const int* valid, RTCRayHit8& packet) {
+      rtcIntersect8(valid, top, &context, &packet);
+    });
+  }
+  return closest_of<RTCRayHit16, 16>(rays, hits, instances, [&](const int* valid, RTCRayHit16& packet) {
+    rtcIntersect16(valid, top, &context, &packet);
+  });
+}
+
+std::uint32_t RayScene::occluded(std::span<const Ray> rays) const {
+  assert(rays.size() <= batch_size);
+  if (rays.size() <= 1) return !rays.empty() && occluded(rays[0]) ? 1 : 0;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCScene top = tree_->top.get();
+  if (rays.size() <= 8) {
+    return occluded_of<RTCRay8, 8>(
+        rays, [&](const int* valid, RTCRay8& packet) { rtcOccluded8(valid, top, &context, &packet); });
+  }
+  return occluded_of<RTCRay16, 16>(
+      rays, [&](const int* valid, RTCRay16& packet) { rtcOccluded16(valid, top, &context, &packet); });
 }
 
 }  // namespace welkin

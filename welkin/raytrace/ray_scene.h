@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <welkin/geometry/vec3f.h>
@@ -54,6 +55,13 @@ class RayScene {
 
   std::optional<Hit> closest(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
+
+  /// Up to batch_size rays at once: faster where they are near each other, such as those of one pixel or one point. Bit i
+  /// of the result tells whether rays[i] met something; hits[i], for closest, what it was. Which of Embree's kernels
+  /// meets a ray depends on the others in the batch, so hits are the same as those of single rays but for rounding.
+  static constexpr std::size_t batch_size = 16;
+  std::uint32_t closest(std::span<const Ray> rays, Hit* hits) const;
+  std::uint32_t occluded(std::span<const Ray> rays) const;
   const Scene& scene() const;
   const std::vector<PlacedMesh>& placed() const;  ///< one for each of scene().instances
 
