@@ -1,25 +1,18 @@
 #include <welkin/pathtrace/camera_ray.h>
 
-#include <welkin/sampling/warp.h>
+#include <cmath>
 
 namespace welkin {
 
-Ray camera_ray(const Camera& camera, PictureSize size, float x, float y) {
+CameraRays::CameraRays(const Camera& camera, PictureSize size)
+    : eye_(camera.to_world.origin), forward_(normalized(-camera.to_world.z)) {
   const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
-  // Both in units of half the picture's height, right and up.
-  const float right = (2 * x - width) / height, up = (height - 2 * y) / height;
-  const Affine& frame = camera.to_world;
-  Ray ray;
-  if (camera.orthographic_height) {
-    const float half = *camera.orthographic_height / 2;
-    ray.origin = frame.origin + (right * half) * frame.x + (up * half) * frame.y;
-    ray.direction = normalized(-frame.z);
-    return ray;
-  }
-  const Vec2f half = cos_sin_turns(camera.vertical_field_radians / (4 * pi_f));
-  ray.origin = frame.origin;
-  ray.direction = normalized((right * half.y) * frame.x + (up * half.y) * frame.y - half.x * frame.z);
-  return ray;
+  parallel_ = camera.orthographic_height.has_value();
+  const float half = parallel_ ? *camera.orthographic_height / 2 : std::tan(camera.vertical_field_radians / 2);
+  const float pixel = 2 * half / height;
+  right_ = pixel * camera.to_world.x;
+  down_ = -pixel * camera.to_world.y;
+  corner_ = -(width / 2) * right_ - (height / 2) * down_ + (parallel_ ? eye_ : forward_);
 }
 
 }  // namespace welkin

@@ -26,7 +26,8 @@ class OcclusionTracer {
 
   void trace(std::span<const Ray> camera_rays, Sample* samples) {
     Hit hits[RayScene::batch_size];
-    const std::uint32_t met = rays_.closest(camera_rays, hits);
+    const std::uint32_t met = rays_.closest(camera_rays, hits, RayKind::side_by_side);
+    prefetch_surfaces(tables_.rays, met, hits);
     for (std::size_t i = 0; i < camera_rays.size(); ++i) {
       if ((met >> i & 1) != 0) {
         look_around(camera_rays[i], hits[i], samples[i]);

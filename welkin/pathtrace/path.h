@@ -68,10 +68,9 @@ class PathTracer {
 
   /// Takes all paths from their rays to the next.
   void step(int bounce) {
-    Hit hits[RayScene::batch_size];
-    const std::uint32_t met = rays_.closest(std::span<const Ray>(rays_out_, count_), hits);
-    Ray shadow_rays[RayScene::batch_size];
-    Candidate candidates[RayScene::batch_size];
+    const RayKind kind = bounce == 0 ? RayKind::side_by_side : RayKind::scattered;
+    const std::uint32_t met = rays_.closest(std::span<const Ray>(rays_out_, count_), hits_, kind);
+    prefetch_surfaces(tables_.rays, met, hits_);
     Path* reflected[RayScene::batch_size];
     std::size_t shadows = 0, alive = 0;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -82,19 +81,19 @@ class PathTracer {
         continue;
       }
       ShadingPoint point;
-      point.surface = surface_at(tables_.rays, hits[i], ray);
-      if (tables_.materials[point.surface.material].emits) add_emission(path, bounce, hits[i], point);
+      point.surface = surface_at(tables_.rays, hits_[i], ray);
+      if (tables_.materials[point.surface.material].emits) add_emission(path, bounce, hits_[i], point);
       if (bounce > bounces_) continue;  // this ray only looked for light
       prepare_shading(tables_.scene, tables_.materials, ray.direction, point);
       if (bounce == 0) describe(point, *path.sample);
       const Vec2f choice = path.sample->stream.next_2d(), on_light = path.sample->stream.next_2d();
-      const Rgb light = direct_light(point, choice.x, on_light, shadow_rays[shadows]);
-      if (!is_black(light)) candidates[shadows++] = {path.throughput * light, &path};
+      const Rgb light = direct_light(point, choice.x, on_light, shadow_rays_[shadows]);
+      if (!is_black(light)) candidates_[shadows++] = {path.throughput * light, &path};
       if (go_on(path, point, bounce, choice.y, rays_out_[alive])) reflected[alive++] = &path;
     }
-    const std::uint32_t hidden = rays_.occluded(std::span<const Ray>(shadow_rays, shadows));
+    const std::uint32_t hidden = rays_.occluded(std::span<const Ray>(shadow_rays_, shadows));
     for (std::size_t i = 0; i < shadows; ++i) {
-      if ((hidden >> i & 1) == 0) add(candidates[i].light, bounce, *candidates[i].path->sample);
+      if ((hidden >> i & 1) == 0) add(candidates_[i].light, bounce, *candidates_[i].path->sample);
     }
     for (std::size_t i = 0; i < alive; ++i) paths_[i] = *reflected[i];  // never to a later place
     count_ = alive;
@@ -215,6 +214,9 @@ class PathTracer {
   std::size_t count_ = 0;  ///< paths on their way
   Path paths_[RayScene::batch_size];
   Ray rays_out_[RayScene::batch_size];  ///< the next ray of each
+  Hit hits_[RayScene::batch_size];
+  Ray shadow_rays_[RayScene::batch_size];
+  Candidate candidates_[RayScene::batch_size];
 };
 
 }  // namespace welkin

@@ -16,6 +16,7 @@ void render_samples_with(Rays& rays, const RenderScene& scene, const Camera& cam
   const auto pixel =
       static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(size.width) + static_cast<std::uint32_t>(x);
   const std::uint32_t seed = mix_bits32(mix_bits32(options.seed + 0x632be5abu) + pixel);
+  const CameraRays view(camera, size);
   const auto trace_batch = [&](auto& tracer, std::size_t begin, std::size_t count, auto&& prepare) {
     Ray camera_rays[RayScene::batch_size];
     typename std::remove_reference_t<decltype(tracer)>::Sample batch[RayScene::batch_size];
@@ -23,8 +24,7 @@ void render_samples_with(Rays& rays, const RenderScene& scene, const Camera& cam
       const std::uint32_t index = first + static_cast<std::uint32_t>(begin + i);
       SampleStream stream(index, seed);
       const Vec2f in_pixel = stream.next_2d();
-      camera_rays[i] =
-          camera_ray(camera, size, static_cast<float>(x) + in_pixel.x, static_cast<float>(y) + in_pixel.y);
+      camera_rays[i] = view.ray(static_cast<float>(x) + in_pixel.x, static_cast<float>(y) + in_pixel.y);
       samples[begin + i] = PixelSample();
       batch[i].pixel = &samples[begin + i];
       prepare(batch[i], index, stream);

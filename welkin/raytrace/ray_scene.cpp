@@ -403,7 +403,7 @@ bool RayScene::occluded(const Ray& ray) const {
   return query.tfar < 0;
 }
 
-std::uint32_t RayScene::closest(std::span<const Ray> rays, Hit* hits) const {
+std::uint32_t RayScene::closest(std::span<const Ray> rays, Hit* hits, RayKind kind) const {
   assert(rays.size() <= batch_size);
   if (rays.size() <= 1) {
     const std::optional<Hit> hit = rays.empty() ? std::nullopt : closest(rays[0]);
@@ -412,6 +412,7 @@ std::uint32_t RayScene::closest(std::span<const Ray> rays, Hit* hits) const {
   }
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
+  if (kind == RayKind::side_by_side) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCScene top = tree_->top.get();
   const std::size_t instances = tree_->placed.size();
   if (rays.size() <= 8) {

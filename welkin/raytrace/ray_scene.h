@@ -27,6 +27,9 @@ struct Hit {
   float u = 0, v = 0;          ///< barycentric: p = (1 - u - v) p0 + u p1 + v p2; unused for a sphere
 };
 
+/// Whether the rays of a batch go much the same way, as a camera's do.
+enum class RayKind { scattered, side_by_side };
+
 /// An instance as the rays see it: what surface_at needs of it.
 struct PlacedMesh {
   const Mesh* mesh = nullptr;
@@ -59,8 +62,9 @@ class RayScene {
   /// Up to batch_size rays at once: faster where they are near each other, such as those of one pixel or one point. Bit i
   /// of the result tells whether rays[i] met something; hits[i], for closest, what it was. Which of Embree's kernels
   /// meets a ray depends on the others in the batch, so hits are the same as those of single rays but for rounding.
+  /// For side_by_side rays another kernel runs: 2.5 times as fast where they are, slower where they are not.
   static constexpr std::size_t batch_size = 16;
-  std::uint32_t closest(std::span<const Ray> rays, Hit* hits) const;
+  std::uint32_t closest(std::span<const Ray> rays, Hit* hits, RayKind kind) const;
   std::uint32_t occluded(std::span<const Ray> rays) const;
   const Scene& scene() const;
   const std::vector<PlacedMesh>& placed() const;  ///< one for each of scene().instances

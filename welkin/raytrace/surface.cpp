@@ -153,6 +153,23 @@ bool is_textured(const Material& m) {
 
 }  // namespace
 
+void prefetch_surfaces(const RayScene& scene, std::uint32_t met, const Hit* hits) {
+  const std::vector<PlacedMesh>& placed = scene.placed();
+  const auto for_meshes = [&](auto&& visit) {
+    for (std::uint32_t left = met, i = 0; left != 0; left >>= 1, ++i) {
+      if ((left & 1) != 0 && hits[i].object < placed.size()) visit(placed[hits[i].object], hits[i].triangle);
+    }
+  };
+  for_meshes(
+      [](const PlacedMesh& p, std::uint32_t triangle) { __builtin_prefetch(&p.mesh->triangles[triangle]); });
+  for_meshes([](const PlacedMesh& p, std::uint32_t triangle) {
+    for (const std::uint32_t corner : p.mesh->triangles[triangle]) {
+      __builtin_prefetch(p.positions + corner);
+      if (!p.mesh->normals.empty()) __builtin_prefetch(&p.mesh->normals[corner]);
+    }
+  });
+}
+
 Surface surface_at(const RayScene& scene, const Hit& hit, const Ray& ray) {
   const std::vector<PlacedMesh>& placed = scene.placed();
   if (hit.object < placed.size()) return on_mesh(placed[hit.object], hit, ray);

@@ -20,6 +20,10 @@ struct Surface {
 /// Needs a hit of that scene by that ray.
 Surface surface_at(const RayScene& scene, const Hit& hit, const Ray& ray);
 
+/// Asks for the memory that surface_at will read for these hits (bit i of `met` says which there are): the waits of a batch
+/// overlap.
+void prefetch_surfaces(const RayScene& scene, std::uint32_t met, const Hit* hits);
+
 /// Where a ray that leaves the surface in `direction` starts: moved along the geometric normal, to the side of the
 /// direction, by a multiple of the position's error, so that it meets neither the surface again nor skips a thin one.
 inline Vec3f leave_surface(const Surface& surface, Vec3f direction) {
