@@ -203,12 +203,14 @@ struct Work {
 
 void compare(bench::Report& report, const RenderScene& render, const BareEmbree& bare, const Camera& camera,
              const Work& work) {
+  std::vector<SampleNumber> numbers(work.samples);
+  for (std::uint32_t i = 0; i < work.samples; ++i) numbers[i].index = i;
   std::vector<std::vector<LoggedRay>> logs(chunks);
   parallel_for(chunks, 1, [&](std::size_t begin, std::size_t) {
     Recorder recorder{render.tables().rays, logs[begin]};
     std::vector<PixelSample> samples(work.samples);
     for_all_pixels(begin, [&](int x, int y) {
-      render_samples_with(recorder, render, camera, size, x, y, 0, samples, work.options);
+      render_samples_with(recorder, render, camera, size, x, y, numbers, work.options, samples);
     });
   });
   std::size_t rays = 0;
@@ -222,7 +224,7 @@ void compare(bench::Report& report, const RenderScene& render, const BareEmbree&
         double sum = 0;
         std::vector<PixelSample> samples(work.samples);
         for_all_pixels(begin, [&](int x, int y) {
-          render_samples(render, camera, size, x, y, 0, samples, work.options);
+          render_samples(render, camera, size, x, y, numbers, work.options, samples);
           for (const PixelSample& s : samples) sum += luminance(s.radiance);
         });
         sums[begin] = sum;

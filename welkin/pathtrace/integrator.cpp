@@ -5,14 +5,16 @@
 namespace welkin {
 
 void render_samples(const RenderScene& scene, const Camera& camera, PictureSize size, int x, int y,
-                    std::uint32_t first, std::span<PixelSample> samples, const IntegratorOptions& options) {
-  render_samples_with(scene.tables().rays, scene, camera, size, x, y, first, samples, options);
+                    std::span<const SampleNumber> numbers, const IntegratorOptions& options,
+                    std::span<PixelSample> out) {
+  render_samples_with(scene.tables().rays, scene, camera, size, x, y, numbers, options, out);
 }
 
 PixelSample render_sample(const RenderScene& scene, const Camera& camera, PictureSize size, int x, int y,
                           std::uint32_t index, const IntegratorOptions& options) {
   PixelSample sample;
-  render_samples(scene, camera, size, x, y, index, {&sample, 1}, options);
+  const SampleNumber number{index, options.seed};
+  render_samples(scene, camera, size, x, y, {&number, 1}, options, {&sample, 1});
   return sample;
 }
 

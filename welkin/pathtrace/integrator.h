@@ -72,10 +72,16 @@ struct PictureSize {
 PixelSample render_sample(const RenderScene& scene, const Camera& camera, PictureSize size, int x, int y,
                           std::uint32_t index, const IntegratorOptions& options);
 
-/// Samples first, first + 1, ... of pixel (x, y): faster, since the rays of 16 samples are traced together. The same calls
-/// give the same bytes; cut into other calls, samples may differ by rounding (RayScene::closest of batches). Threads that
-/// call often should hold a FlushDenormals.
+/// Which sample of a pixel: `seed` takes the place of IntegratorOptions::seed.
+struct SampleNumber {
+  std::uint32_t index = 0, seed = 0;
+};
+
+/// Samples of pixel (x, y) into out, one for each number: faster, since the rays of 16 are traced together. The same calls
+/// give the same bytes; cut into other batches of 16, samples may differ by rounding (RayScene::closest of batches).
+/// Threads that call often should hold a FlushDenormals.
 void render_samples(const RenderScene& scene, const Camera& camera, PictureSize size, int x, int y,
-                    std::uint32_t first, std::span<PixelSample> samples, const IntegratorOptions& options);
+                    std::span<const SampleNumber> numbers, const IntegratorOptions& options,
+                    std::span<PixelSample> out);
 
 }  // namespace welkin

@@ -17,11 +17,13 @@ class OcclusionTracer {
   OcclusionTracer(const RenderScene::Tables& tables, const IntegratorOptions& options, Rays& rays)
       : tables_(tables), options_(options), rays_(rays) {}
 
-  /// One sample of a pixel: its number, the pixel's seed, and what it fills.
+  /// One sample of a pixel: its number with the pixel's own seed, and what it fills.
   struct Sample {
-    std::uint32_t index = 0, seed = 0;
+    SampleNumber number;
     PixelSample* pixel = nullptr;
     Vec3f first;
+
+    void begin(SampleNumber in_pixel, const SampleStream&) { number = in_pixel; }
   };
 
   void trace(std::span<const Ray> camera_rays, Sample* samples) {
@@ -51,7 +53,8 @@ class OcclusionTracer {
     const std::uint32_t count = std::max(options_.occlusion_rays, 1);
     share_ = 1 / static_cast<float>(count);
     for (std::uint32_t i = 0; i < count; ++i) {
-      const Vec2f u = SampleStream(sample.index * count + i, sample.seed ^ 0x5bd1e995u).next_2d();
+      const Vec2f u =
+          SampleStream(sample.number.index * count + i, sample.number.seed ^ 0x5bd1e995u).next_2d();
       const Vec3f direction = point.frame.to_world(warp_to_cosine_hemisphere(u));
       if (!point.faces(direction)) continue;
       pending_[pending_count_] = {leave_surface(point.surface, direction), 0, direction,

@@ -40,6 +40,8 @@ class PathTracer {
     SampleStream stream{0, 0};
     PixelSample* pixel = nullptr;
     Vec3f first;
+
+    void begin(SampleNumber, const SampleStream& of_sample) { stream = of_sample; }
   };
 
   void trace(std::span<const Ray> camera_rays, Sample* samples) {

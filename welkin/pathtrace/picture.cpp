@@ -7,19 +7,35 @@
 
 namespace welkin {
 
+namespace {
+
+/// All replicates of a pixel, 16 samples at a time.
+struct PixelRenderer {
+  const RenderScene& scene;
+  const Camera& camera;
+  const PictureOptions& options;
+  std::array<std::uint32_t, picture_replicates> seeds;
+
+  void batch(int x, int y, std::uint32_t begin, std::span<PixelSample> out) const {
+    std::array<SampleNumber, picture_loop::batch_size> numbers;
+    for (std::uint32_t i = 0; i < out.size(); ++i) {
+      const std::uint32_t at = begin + i;
+      numbers[i] = {at / picture_replicates, seeds[at % picture_replicates]};
+    }
+    render_samples(scene, camera, options.size, x, y, std::span(numbers.data(), out.size()),
+                   options.integrator, out);
+  }
+};
+
+}  // namespace
+
 bool render_picture(PictureState& state, const RenderScene& scene, const Camera& camera,
                     const PictureOptions& options, const PictureObserver& observer) {
-  std::array<IntegratorOptions, picture_replicates> of_replicate;
-  for (int r = 0; r < picture_replicates; ++r) {
-    of_replicate[r] = options.integrator;
-    of_replicate[r].seed =
-        mix_bits32(options.integrator.seed + 0x9e3779b9u * static_cast<std::uint32_t>(r + 1));
+  PixelRenderer renderer{scene, camera, options, {}};
+  for (std::uint32_t r = 0; r < picture_replicates; ++r) {
+    renderer.seeds[r] = mix_bits32(options.integrator.seed + 0x9e3779b9u * (r + 1));
   }
-  const auto sample = [&](int x, int y, int replicate, std::uint32_t index) {
-    return render_sample(scene, camera, options.size, x, y, index,
-                         of_replicate[static_cast<std::size_t>(replicate)]);
-  };
-  return sample_picture(state, options, sample, observer);
+  return sample_picture(state, options, renderer, observer);
 }
 
 }  // namespace welkin

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 
 #include <welkin/parallel/parallel_for.h>
 #include <welkin/pathtrace/picture.h>
@@ -35,17 +36,36 @@ inline void add_sample(PictureState& state, std::size_t pixel, int replicate, co
   state.coverage_sum[pixel] += s.coverage;
 }
 
-/// Brings one pixel to its goal, sample by sample in the order of their numbers; returns how many were not finite.
+inline constexpr std::uint32_t batch_size = 16;
+
+/// Samples begin .. begin + out.size() - 1 of a pixel, counted over its replicates in turn: all at once where `sample` can
+/// do that (sample.batch(x, y, begin, out)), else one by one.
+template <class Sample>
+void fill_batch(int x, int y, std::uint32_t begin, std::span<PixelSample> out, const Sample& sample) {
+  if constexpr (requires { sample.batch(x, y, begin, out); }) {
+    sample.batch(x, y, begin, out);
+  } else {
+    for (std::uint32_t i = begin; i < begin + out.size(); ++i) {
+      out[i - begin] = sample(x, y, static_cast<int>(i % picture_replicates), i / picture_replicates);
+    }
+  }
+}
+
+/// Brings one pixel to its goal, in the order of the samples' numbers; returns how many were not finite. Batches end at
+/// multiples of their size, wherever a run was stopped.
 template <class Sample>
 std::uint64_t sample_pixel(PictureState& state, int x, int y, std::size_t pixel, const Sample& sample) {
   std::uint64_t faults = 0;
-  for (std::uint32_t i = state.count[pixel]; i < state.goal[pixel]; ++i) {
-    const int replicate = static_cast<int>(i % picture_replicates);
-    const PixelSample value = sample(x, y, replicate, i / picture_replicates);
-    if (finite(value)) {
-      add_sample(state, pixel, replicate, value);
-    } else {
-      ++faults;
+  std::array<PixelSample, batch_size> values;
+  for (std::uint32_t begin = state.count[pixel], end = 0; begin < state.goal[pixel]; begin = end) {
+    end = std::min((begin / batch_size + 1) * batch_size, state.goal[pixel]);
+    fill_batch(x, y, begin, std::span(values.data(), end - begin), sample);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (finite(values[i - begin])) {
+        add_sample(state, pixel, static_cast<int>(i % picture_replicates), values[i - begin]);
+      } else {
+        ++faults;
+      }
     }
   }
   state.count[pixel] = state.goal[pixel];
