@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -124,7 +126,8 @@ std::string light_lines(const std::vector<ShLight>& lights, ShForm form, std::st
 
 std::vector<ShLight> lights_in(std::string_view text, ShForm form, std::string_view name) {
   std::vector<ShLight> lights;
-  const std::optional<std::size_t> promised = form == ShForm::filament ? promised_lights(text) : std::nullopt;
+  constexpr std::size_t any = SIZE_MAX;
+  const std::size_t promised = form == ShForm::filament ? promised_lights(text).value_or(any) : any;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::optional<std::string_view> comment = comment_of(text.substr(0, end));
@@ -134,8 +137,8 @@ std::vector<ShLight> lights_in(std::string_view text, ShForm form, std::string_v
     if (lights.size() > max_sh_lights)
       throw Error(name, fmt::format("has more than {} lights", max_sh_lights));
   }
-  if (promised && *promised != lights.size())
-    throw Error(name, fmt::format("is cut off: it has {} of its {} lights", lights.size(), *promised));
+  if (promised != any && promised != lights.size())
+    throw Error(name, fmt::format("is cut off: it has {} of its {} lights", lights.size(), promised));
   return lights;
 }
 
