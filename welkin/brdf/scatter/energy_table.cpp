@@ -57,7 +57,7 @@ EnergyAverage average_of(const EnergyTable& table, float alpha) {
     if (moment < least) best = s, least = moment;
   }
   return {static_cast<float>(std::max(least_lost, lost / weights)), static_cast<float>(bias / weights),
-          static_cast<float>(best)};
+          static_cast<float>(best), static_cast<float>(std::log1p(1 / best))};
 }
 
 EnergyTable make_ggx_table() {

@@ -19,10 +19,10 @@ struct Energy {
   float lost = 0, bias = 0;
 };
 
-/// The same averaged with cos / pi over the hemisphere, and `spread`, the parameter of the density that samples
-/// lost cos (warps.h).
+/// The same averaged with cos / pi over the hemisphere, and the density that samples lost cos (warps.h).
 struct EnergyAverage {
-  float lost = 0, bias = 0, spread = 1;
+  float lost = 0, bias = 0;
+  float spread = 1, log_spread = 0.69314718f;  ///< and log(1 + 1 / spread)
 };
 
 /// Row by row; the columns are cosines (energy_axis).
@@ -86,8 +86,8 @@ inline EnergyAverage look_up_average(const EnergyTable& table, float alpha) {
   const int i = std::min(static_cast<int>(at), last - 1);
   const float t = at - static_cast<float>(i);
   const EnergyAverage &a = table.averages[i], &b = table.averages[i + 1];
-  return {a.lost + t * (b.lost - a.lost), a.bias + t * (b.bias - a.bias),
-          a.spread + t * (b.spread - a.spread)};
+  // A density's two numbers belong together: those of one step.
+  return {a.lost + t * (b.lost - a.lost), a.bias + t * (b.bias - a.bias), b.spread, b.log_spread};
 }
 
 }  // namespace welkin

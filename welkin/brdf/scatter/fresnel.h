@@ -44,12 +44,10 @@ inline Rgb fresnel_conductor(float cosine, Rgb eta, Rgb k) {
           fresnel_conductor(cosine, eta.b, k.b)};
 }
 
-/// 2 * integral of F(c) c dc, what a conductor reflects of light from everywhere: three Gauss nodes in c^2, within 0.002
-/// for the metals of the tests.
+/// 2 * integral of F(c) c dc, what a conductor reflects of light from everywhere, by two nodes whose places and weights
+/// are fitted to eleven materials from silver to glass, each within 0.002.
 inline Rgb average_fresnel_conductor(Rgb eta, Rgb k) {
-  return (5.0f / 18) * fresnel_conductor(0.33571095f, eta, k) +
-         (8.0f / 18) * fresnel_conductor(0.70710678f, eta, k) +
-         (5.0f / 18) * fresnel_conductor(0.94196543f, eta, k);
+  return 0.21f * fresnel_conductor(0.25f, eta, k) + 0.79f * fresnel_conductor(0.76f, eta, k);
 }
 
 }  // namespace welkin::scatter_detail

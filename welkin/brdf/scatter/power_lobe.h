@@ -20,7 +20,8 @@ struct PowerLobe {
   float peak = 0;  ///< the BRDF on the axis, for color 1
   float p_lobe = 1, p_cosine = 0, p_lost = 0;
   const EnergyTable* table = nullptr;  ///< null: not compensated
-  float multiple = 0, spread = 1;      ///< lost(v) / (pi lost_avg)
+  float multiple = 0;                  ///< lost(v) / (pi lost_avg)
+  LostDensity density;
 };
 
 /// The factor that makes Blinn-Phong's reflectance at normal view 1 (models.h).
@@ -60,7 +61,7 @@ inline PowerLobe make_power_lobe(const Scatter& s, Vec3f view) {
   const float lost = look_up_energy(*s.energy, view, 1).lost;
   const EnergyAverage average = look_up_average(*s.energy, 1);
   lobe.multiple = lost / (pi * average.lost);
-  lobe.spread = average.spread;
+  lobe.density = {average.spread, average.log_spread};
   lobe.p_lost = std::clamp(lost, 0.0f, 1.0f);
   lobe.p_lobe *= 1 - lobe.p_lost;
   lobe.p_cosine *= 1 - lobe.p_lost;
@@ -93,14 +94,14 @@ inline ScatterValue power_lobe_value(const PowerLobe& lobe, Rgb color, Vec3f lig
   float density = lobe.p_lobe * power.pdf + lobe.p_cosine * light.z / pi;
   if (lobe.table) {
     value += lobe.multiple * look_up_energy(*lobe.table, light, 1).lost * light.z;
-    density += lobe.p_lost * lost_pdf(lobe.spread, light.z);
+    density += lobe.p_lost * lost_pdf(lobe.density, light.z);
   }
   return {value * color, density};
 }
 
 inline Vec3f sample_power_lobe(const PowerLobe& lobe, Vec2f u, float choice) {
   if (choice >= lobe.p_lobe)
-    return choice < lobe.p_lobe + lobe.p_lost ? sample_lost(lobe.spread, u) : sample_cosine(u);
+    return choice < lobe.p_lobe + lobe.p_lost ? sample_lost(lobe.density, u) : sample_cosine(u);
   if (!lobe.half) return sample_cosine_power(lobe.axis, lobe.exponent, u);
   const Vec3f half = sample_cosine_power({0, 0, 1}, lobe.exponent + 1, u);
   return reflected(lobe.view, half);

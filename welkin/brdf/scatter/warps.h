@@ -14,11 +14,10 @@ inline constexpr float pi = std::numbers::pi_v<float>;
 
 /// (cos, sin) of 2 pi u, u in [0, 1], to 1e-7: Taylor's series about the nearest quarter turn.
 inline Vec2f turn(float u) {
-  const float quarters = std::floor(4 * u + 0.5f);
-  const float x = 2 * pi * (u - quarters / 4), x2 = x * x;
+  const int q = static_cast<int>(4 * u + 0.5f);
+  const float x = 2 * pi * (u - 0.25f * static_cast<float>(q)), x2 = x * x;
   const float sine = x * (1 + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 / 362880))));
   const float cosine = 1 + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 / 40320)));
-  const int q = static_cast<int>(quarters);
   const Vec2f straight{(q & 1) != 0 ? -sine : cosine, (q & 1) != 0 ? cosine : sine};
   return (q & 2) != 0 ? -1.0f * straight : straight;
 }
@@ -43,17 +42,19 @@ inline Vec3f sample_cosine_power(Vec3f axis, float exponent, Vec2f u) {
   return make_frame(axis).to_world(local);
 }
 
-/// Density c / (pi (c^2 + spread) log(1 + 1 / spread)), c = cos: the cosine lobe for a large spread, uniform in log c
-/// down to sqrt(spread) for a small one. Made for (1 - E(c)) c, which has
-/// that shape (energy_table.h). spread in (0, 4].
-inline Vec3f sample_lost(float spread, Vec2f u) {
-  const float c2 = std::min(1.0f, spread * std::expm1((1 - u.x) * std::log(1 + 1 / spread)));
+/// Density c / (pi (c^2 + s) log(1 + 1 / s)), c = cos: the cosine lobe for a large s, uniform in log c down to sqrt(s) for
+/// a small one. Made for (1 - E(c)) c, which has that shape (energy_table.h).
+struct LostDensity {
+  float spread = 1, log_spread = 0.69314718f;  ///< s and log(1 + 1 / s)
+};
+
+inline Vec3f sample_lost(LostDensity d, Vec2f u) {
+  const float c2 = std::min(1.0f, d.spread * std::expm1((1 - u.x) * d.log_spread));
   return at_cosine(std::sqrt(c2), std::sqrt(1 - c2), u.y);
 }
 
-/// The density of sample_lost.
-inline float lost_pdf(float spread, float cosine) {
-  return cosine / (pi * (cosine * cosine + spread) * std::log(1 + 1 / spread));
+inline float lost_pdf(LostDensity d, float cosine) {
+  return cosine / (pi * (cosine * cosine + d.spread) * d.log_spread);
 }
 
 }  // namespace welkin::scatter_detail
