@@ -12,9 +12,11 @@
 #include <welkin/brdf/brdf_spec.h>
 #include <welkin/brdf/lobe_fit.h>
 #include <welkin/brdf/merl.h>
+#include <welkin/brdf/scatter/scatter_spec.h>
 #include <welkin/error.h>
 #include <welkin/image/output_file.h>
 
+#include "brdf_sampling.h"
 #include "commands.h"
 #include "flat_file.h"
 #include "json_text.h"
@@ -29,7 +31,8 @@ constexpr double degrees = 180 / std::numbers::pi;
 struct BrdfCommand {
   std::string spec, output;
   int lobes = 1;
-  bool json = false;
+  bool json = false, sampling = false;
+  int samples = 1 << 18;
 };
 
 double largest_of(const std::array<double, 3>& rgb) { return *std::max_element(rgb.begin(), rgb.end()); }
@@ -129,6 +132,7 @@ void print_json(const IsotropicBrdf& brdf, const BrdfFacts& facts, const std::ve
 }
 
 void run(const BrdfCommand& command) {
+  if (command.sampling) return print_brdf_sampling(command.spec, command.samples, command.json);
   if (!command.output.empty()) {
     if (extension_of(command.output) != ".binary")
       throw Error(command.output, "has an unknown extension; the layout of MERL is .binary");
@@ -154,10 +158,20 @@ void add_brdf_command(CLI::App& app) {
       ->capture_default_str();
   sub->add_option("-o,--output", command->output,
                   "FILE.binary: the BRDF in the layout of the MERL database, 90 x 90 x 180 cells, 35 MB");
+  CLI::Option* sampling = sub->add_flag(
+      "--sampling", command->sampling,
+      "The BRDF as the path tracer has it: albedo by quadrature and by sampling, noise of a white "
+      "furnace, chi-square test of the sampler (p), times. SPEC is then one of: " +
+          std::string(scatter_choices()));
+  sub->add_option("--samples", command->samples, "Samples a view of --sampling")
+      ->check(CLI::Range(1000, 1000000000))
+      ->capture_default_str()
+      ->needs(sampling);
+  sampling->excludes("--lobes")->excludes("--output");
   sub->add_flag("--json", command->json, "Print JSON; angles in radians");
   sub->footer(
       "Examples:\n  welkin brdf ggx:0.25,0.9 --lobes 2\n  welkin brdf ward:0.2 -o ward.binary && "
-      "welkin brdf merl:ward.binary");
+      "welkin brdf merl:ward.binary\n  welkin brdf ggx:0.1:0.5,1,compensated --sampling");
   sub->callback([command] { run(*command); });
 }
 

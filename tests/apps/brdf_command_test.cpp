@@ -31,6 +31,25 @@ TEST_F(BrdfCommandTest, WritesAndReadsTheLayoutOfMerl) {
   EXPECT_NEAR(json["views"][0]["directional_albedo"][0].get<double>(), 0.5, 0.01);
 }
 
+TEST_F(BrdfCommandTest, SamplesABrdf) {
+  const Arguments arguments{"brdf", "ggx:0.3,1,compensated", "--sampling", "--samples", "20000"};
+  const std::string table = run_well(arguments);
+  EXPECT_EQ(table.find("ggx:0.3,1,compensated, 20000 samples a view"), 0u);
+  Arguments with_json = arguments;
+  with_json.push_back("--json");
+  const auto json = nlohmann::json::parse(run_well(with_json));
+  ASSERT_EQ(json["views"].size(), 7u);
+  EXPECT_GT(json["sample_ns"].get<double>(), 0);
+  for (const auto& view : json["views"]) {
+    EXPECT_NEAR(view["albedo_by_quadrature"][1].get<double>(), 1, 1e-3);  // the table's error
+    // Samples: relative std of 0.3, over the root of 20000, five times.
+    EXPECT_NEAR(view["albedo_by_sampling"][1].get<double>(), 1, 0.011);
+    EXPECT_GT(view["chi_square_p"].get<double>(), 1e-4);
+  }
+  EXPECT_EQ(run({"brdf", "ward:0.3", "--sampling"}).exit_code, 1);
+  EXPECT_EQ(run({"brdf", "ggx:0.3", "--samples", "20000"}).exit_code, 2);
+}
+
 TEST_F(BrdfCommandTest, RefusesOtherNamesAndSpecs) {
   for (const Arguments& arguments : {Arguments{"brdf", "ggx:0.5", "-o", "x.hdr"}, Arguments{"brdf", "velvet"},
                                      Arguments{"brdf", "ggx:0.5", "-o", "no/folder/x.binary"}}) {
