@@ -14,6 +14,8 @@
 
 namespace welkin {
 
+struct ImageBasedLight;  // image_based.h
+
 enum class Integrator { direct, path, ambient_occlusion, image_based };
 
 /// How light is looked for at a surface.
@@ -37,6 +39,8 @@ struct IntegratorOptions {
   float clamp_indirect = 0;          ///< largest radiance of an indirect contribution; 0: no clamp, unbiased
   bool show_environment = true;      ///< behind the scene; else black, coverage says where
   std::uint32_t seed = 0;
+  const ImageBasedLight* image_based =
+      nullptr;  ///< what Integrator::image_based needs; kept alive by the caller
 };
 
 struct PixelSample {

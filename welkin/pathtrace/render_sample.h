@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include <welkin/pathtrace/image_based.h>
 #include <welkin/pathtrace/occlusion.h>
 #include <welkin/pathtrace/path.h>
 #include <welkin/raytrace/flush_denormals.h>
@@ -41,6 +42,10 @@ void render_samples_with(Rays& rays, const RenderScene& scene, const Camera& cam
     const std::size_t count = std::min(out.size() - begin, RayScene::batch_size);
     if (options.integrator == Integrator::ambient_occlusion) {
       OcclusionTracer tracer(scene.tables(), options, rays);
+      trace_batch(tracer, begin, count);
+    } else if (options.integrator == Integrator::image_based) {
+      assert(options.image_based != nullptr);
+      ImageBasedTracer tracer(scene.tables(), options, rays);
       trace_batch(tracer, begin, count);
     } else {
       PathTracer tracer(scene.tables(), options, rays);
