@@ -168,12 +168,20 @@ RenderJob make_render_job(const RenderCommand& command) {
                            : has_light(job.scene)       ? "none"
                                                         : "sky:";
   if (name == "none") {
+    if (job.options.integrator.integrator == Integrator::image_based)
+      throw Error("--integrator ibl shades by an environment: give one with --env");
     job.fingerprint = picture_fingerprint(job.scene, job.camera, nullptr, job.options);
     return job;
   }
   Environment environment = load_surroundings(command, name);
   for (const std::string& warning : environment.warnings) job.warnings.push_back(name + ": " + warning);
   job.fingerprint = picture_fingerprint(job.scene, job.camera, &environment.radiance, job.options);
+  if (job.options.integrator.integrator == Integrator::image_based) {
+    const IblOptions ibl;
+    job.image_based =
+        std::make_unique<ImageBasedLight>(make_image_based_light(make_ibl(environment.radiance, ibl), ibl));
+    job.options.integrator.image_based = job.image_based.get();
+  }
   job.environment.emplace(std::move(environment.radiance));
   return job;
 }

@@ -1,9 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <welkin/pathtrace/image_based.h>
 #include <welkin/pathtrace/picture.h>
 
 #include "render_options.h"
@@ -14,6 +16,7 @@ namespace welkin {
 struct RenderJob {
   Scene scene;
   std::optional<EnvironmentSampler> environment;
+  std::unique_ptr<ImageBasedLight> image_based;  ///< of the environment, for --integrator ibl
   Camera camera;
   PictureOptions options;
   std::uint64_t fingerprint = 0;
