@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <welkin/pathtrace/integrator.h>
 
@@ -32,10 +33,12 @@ struct Tally {
 /// Luminance of one pixel's samples [0, samples), their mean.
 inline double pixel_luminance(const RenderScene& scene, const Camera& camera, PictureSize size, int x, int y,
                               std::uint32_t samples, const IntegratorOptions& options) {
+  std::vector<SampleNumber> numbers(samples);
+  for (std::uint32_t i = 0; i < samples; ++i) numbers[i] = {i, options.seed};
+  std::vector<PixelSample> values(samples);
+  render_samples(scene, camera, size, x, y, numbers, options, values);
   double sum = 0;
-  for (std::uint32_t i = 0; i < samples; ++i) {
-    sum += luminance(render_sample(scene, camera, size, x, y, i, options).radiance);
-  }
+  for (const PixelSample& value : values) sum += luminance(value.radiance);
   return sum / samples;
 }
 

@@ -64,7 +64,10 @@ TEST_P(Furnace, LosslessSphereCannotBeSeen) {
 INSTANTIATE_TEST_SUITE_P(
     All, Furnace,
     testing::Combine(testing::Values(MaterialModel::metallic_roughness, MaterialModel::lambert,
-                                     MaterialModel::ggx, MaterialModel::mirror,
+                                     MaterialModel::oren_nayar, MaterialModel::phong,
+                                     MaterialModel::blinn_phong, MaterialModel::lafortune, MaterialModel::ggx,
+                                     MaterialModel::ggx_conductor, MaterialModel::mirror,
+                                     MaterialModel::conductor, MaterialModel::dielectric,
                                      MaterialModel::coated_diffuse),
                      testing::Values(Integrator::direct, Integrator::path),
                      testing::Values(LightSampling::bsdf, LightSampling::light, LightSampling::mis)));

@@ -97,6 +97,15 @@ float one_minus_cosine(float radius, float squared) {
   return sine_squared / (1 + std::sqrt(1 - sine_squared));
 }
 
+/// Whether the light is seen from inside. Points of the sphere itself are off it by their rounding, and count as inside:
+/// those that look outwards see nothing of it either way.
+bool is_inside(Vec3f from, const SphereLight& light) {
+  const Vec3f way = light.centre - from;
+  const float error = 24 * 0x1p-24f * (light.radius + length(light.centre));
+  const float reach = light.radius + error;
+  return dot(way, way) <= reach * reach;
+}
+
 }  // namespace
 
 LightTable::LightTable(const RayScene& rays, const EnvironmentSampler* environment)
@@ -219,7 +228,7 @@ LightSample LightTable::from_punctual(Vec3f from, const PunctualLight& light) co
 LightSample LightTable::from_sphere(Vec3f from, const SphereLight& light, Vec2f u) const {
   const Vec3f way = light.centre - from;
   const float squared = dot(way, way), radius = light.radius;
-  const bool inside = squared <= radius * radius;
+  const bool inside = is_inside(from, light);
   const float cap = inside ? 2.0f : one_minus_cosine(radius, squared);
   const Frame frame = make_frame(squared > 0 ? normalized(way) : Vec3f{0, 1, 0});
   LightSample sample;
@@ -275,10 +284,9 @@ LightSample LightTable::from_triangle(Vec3f from, const TriangleLight& light, Ve
 }
 
 float LightTable::sphere_pdf(Vec3f from, const SphereLight& light) const {
+  if (is_inside(from, light)) return welkin::sphere_pdf();
   const Vec3f way = light.centre - from;
-  const float squared = dot(way, way);
-  if (squared <= light.radius * light.radius) return welkin::sphere_pdf();
-  return cone_pdf(one_minus_cosine(light.radius, squared));
+  return cone_pdf(one_minus_cosine(light.radius, dot(way, way)));
 }
 
 float LightTable::pdf_of_surface(Vec3f from, const Hit& hit, const Surface& surface) const {
