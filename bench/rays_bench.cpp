@@ -136,7 +136,7 @@ Scene hills(int n) {
       const float h = 1e-3f, dx = (height(x + h, z) - height(x - h, z)) / (2 * h);
       const float dz = (height(x, z + h) - height(x, z - h)) / (2 * h);
       mesh.positions.push_back({x, height(x, z), z});
-      mesh.normals.push_back(normalized({-dx, 1, -dz}));
+      mesh.normals.push_back(normalized(Vec3f{-dx, 1, -dz}));
     }
   }
   const auto at = [n](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
