@@ -26,8 +26,8 @@ enum class ScatterModel : std::uint8_t {
   mirror,         ///< [color]: smooth, reflects color times the light
   conductor,      ///< [eta, k]: smooth metal
   dielectric,     ///< [eta.r]: smooth, reflects Fresnel's share; the rest is absorbed
-  coated_diffuse,  ///< [color = albedo, f0 or eta, alpha]: GGX coat over a diffuse base, reciprocal, lossless for white
-  metallic_roughness,  ///< glTF 2.0: [color = base color, metallic, f0 of the dielectric part, alpha_x, alpha_y]
+  coated_diffuse,  ///< [color = albedo, f0, f90, alpha_x; 0: a smooth coat]: GGX coat over a diffuse base, lossless for white
+  metallic_roughness,  ///< glTF 2.0: [color = base color, metallic, f0 and f90 of the dielectric part, alpha_x, alpha_y]
 };
 
 /// A BRDF at a point with its parameters: plain data, copied freely. Defaults are a gray Lambert surface.
@@ -43,7 +43,8 @@ struct Scatter {
   float sigma_radians = 0;                 ///< standard deviation of the facets' slope angle, in [0, pi / 2]
   std::array<float, 3> lafortune_c{-1, -1, 1};
   Rgb eta{1.5f, 1.5f, 1.5f}, k{};  ///< complex index
-  /// What `compensated` needs: of make_energy_table for this model and width, kept alive by whoever made the Scatter.
+  /// What `compensated` needs where needs_energy_table (energy_table.h) says so: of make_energy_table for this model and
+  /// width, kept alive by whoever made the Scatter. Null: not compensated there; all other models share one table.
   const EnergyTable* energy = nullptr;
 };
 
