@@ -19,7 +19,9 @@ namespace welkin {
 
 constexpr double two_pi_squared = 2 * std::numbers::pi * std::numbers::pi;
 
-inline std::vector<EnvironmentTable> all_tables() { return {EnvironmentTable::inverse}; }
+inline std::vector<EnvironmentTable> all_tables() {
+  return {EnvironmentTable::inverse, EnvironmentTable::alias, EnvironmentTable::hierarchical};
+}
 
 inline std::string name_of(const EnvironmentSamplerOptions& options) {
   const char* tables[] = {"inverse", "alias", "hierarchical"};

@@ -7,7 +7,9 @@
 #include <numbers>
 #include <utility>
 
+#include <welkin/envmap/importance/alias_table.h>
 #include <welkin/envmap/importance/inverse_table.h>
+#include <welkin/envmap/importance/quad_table.h>
 #include <welkin/error.h>
 #include <welkin/geometry/fast_angles.h>
 #include <welkin/parallel/parallel_for.h>
@@ -27,7 +29,7 @@
 namespace welkin {
 namespace {
 
-constexpr float darkest = 1e-30f;
+constexpr float darkest = 1e-25f;
 constexpr float smallest_sine = 1e-9f;
 
 struct MapPosition {
@@ -78,9 +80,22 @@ float clamped_unit(float v, float margin) { return margin + (1 - 2 * margin) * s
 struct EnvironmentSampler::Tables {
   Tables(Image&& radiance, const EnvironmentSamplerOptions& chosen);
 
-  TexelChoice choose(Vec2f u) const { return inverse.choose(u); }
-  float probability(int x, int y) const { return inverse.probability(x, y); }
-  std::size_t bytes() const { return inverse.bytes(); }
+  TexelChoice choose(Vec2f u) const {
+    switch (options.table) {
+      case EnvironmentTable::alias: return alias.choose(u);
+      case EnvironmentTable::hierarchical: return quad.choose(u);
+      default: return inverse.choose(u);
+    }
+  }
+  float probability(int x, int y) const {
+    switch (options.table) {
+      case EnvironmentTable::alias: return alias.probability(x, y);
+      case EnvironmentTable::hierarchical: return quad.probability(x, y);
+      default: return inverse.probability(x, y);
+    }
+  }
+  // Those of the tables that are not in use are empty.
+  std::size_t bytes() const { return inverse.bytes() + alias.bytes() + quad.bytes(); }
 
   MapPosition locate(Vec3f direction) const;
   int column_of(float s) const { return std::min(static_cast<int>(s * wide), map.width - 1); }
@@ -89,6 +104,12 @@ struct EnvironmentSampler::Tables {
     const float* p = map.at(x, y);
     return {p[0], p[1], p[2]};
   }
+  // From the probability of a texel to steradians, where texels are sampled evenly in (s, t).
+  float map_density(float sine) const {
+    constexpr float jacobian = static_cast<float>(2 * std::numbers::pi * std::numbers::pi);
+    return texels / (jacobian * std::max(sine, smallest_sine));
+  }
+  Vec3f solid_angle_direction(int x, int y, Vec2f within) const;
   EnvironmentSample sample_box(const TexelChoice& choice) const;
   EnvironmentSample sample_bilinear(const TexelChoice& choice) const;
   EnvironmentSample at_box(const MapPosition& position) const;
@@ -103,6 +124,8 @@ struct EnvironmentSampler::Tables {
   bool black = true;
   double mean = 0;
   InverseTable inverse;
+  AliasTable alias;
+  QuadTable quad;
 };
 
 EnvironmentSampler::Tables::Tables(Image&& radiance, const EnvironmentSamplerOptions& chosen)
@@ -125,7 +148,11 @@ EnvironmentSampler::Tables::Tables(Image&& radiance, const EnvironmentSamplerOpt
   });
   for (double sum : sums) mean += sum / (4 * std::numbers::pi);
   black = std::all_of(map.pixels.begin(), map.pixels.end(), [](float value) { return value == 0; });
-  inverse = InverseTable(weights);
+  switch (options.table) {
+    case EnvironmentTable::alias: alias = AliasTable(weights); break;
+    case EnvironmentTable::hierarchical: quad = QuadTable(weights); break;
+    default: inverse = InverseTable(weights);
+  }
 }
 
 MapPosition EnvironmentSampler::Tables::locate(Vec3f d) const {
@@ -134,24 +161,25 @@ MapPosition EnvironmentSampler::Tables::locate(Vec3f d) const {
   return {s < 1 ? s : 0, 2 * atan2_turns(sine, d.y), sine};
 }
 
+Vec3f EnvironmentSampler::Tables::solid_angle_direction(int x, int y, Vec2f within) const {
+  const float s = (static_cast<float>(x) + clamped_unit(within.x, margin)) / wide;
+  const Vec2f around = cos_sin_turns(s - 0.5f);
+  const RowShape& row = rows[y];
+  const float h = row.h + clamped_unit(within.y, margin) * row.h_step, sine = 2 * std::sqrt(h * (1 - h));
+  return {sine * around.x, row.pole * (1 - 2 * h), sine * around.y};
+}
+
 EnvironmentSample EnvironmentSampler::Tables::sample_box(const TexelChoice& choice) const {
+  const Rgb found = texel(choice.x, choice.y);
+  if (options.density == EnvironmentDensity::luminance_solid_angle)
+    return {solid_angle_direction(choice.x, choice.y, choice.within), found,
+            choice.probability * rows[choice.y].per_steradian};
   const float s = (static_cast<float>(choice.x) + clamped_unit(choice.within.x, margin)) / wide;
   const float down = clamped_unit(choice.within.y, margin);
   const Vec2f around = cos_sin_turns(s - 0.5f);
-  EnvironmentSample sample;
-  sample.radiance = texel(choice.x, choice.y);
-  if (options.density == EnvironmentDensity::luminance_solid_angle) {
-    const RowShape& row = rows[choice.y];
-    const float h = row.h + down * row.h_step, sine = 2 * std::sqrt(h * (1 - h));
-    sample.direction = {sine * around.x, row.pole * (1 - 2 * h), sine * around.y};
-    sample.pdf = choice.probability * row.per_steradian;
-  } else {
-    const Vec2f theta = cos_sin_turns((static_cast<float>(choice.y) + down) / high * 0.5f);
-    sample.direction = {theta.y * around.x, theta.x, theta.y * around.y};
-    constexpr float jacobian = static_cast<float>(2 * std::numbers::pi * std::numbers::pi);
-    sample.pdf = choice.probability * texels / (jacobian * std::max(theta.y, smallest_sine));
-  }
-  return sample;
+  const Vec2f theta = cos_sin_turns((static_cast<float>(choice.y) + down) / high * 0.5f);
+  return {
+      {theta.y * around.x, theta.x, theta.y * around.y}, found, choice.probability * map_density(theta.y)};
 }
 
 // The density of the tents about all texels, each with its texel's probability: the bilinear interpolation of the
@@ -172,12 +200,8 @@ EnvironmentSample EnvironmentSampler::Tables::sample_bilinear(const TexelChoice&
 EnvironmentSample EnvironmentSampler::Tables::at_box(const MapPosition& position) const {
   const int x = column_of(position.s), y = row_of(position.t);
   const float chance = probability(x, y);
-  constexpr float jacobian = static_cast<float>(2 * std::numbers::pi * std::numbers::pi);
   const bool by_angle = options.density == EnvironmentDensity::luminance_solid_angle;
-  return {{},
-          texel(x, y),
-          by_angle ? chance * rows[y].per_steradian
-                   : chance * texels / (jacobian * std::max(position.sine, smallest_sine))};
+  return {{}, texel(x, y), by_angle ? chance * rows[y].per_steradian : chance * map_density(position.sine)};
 }
 
 EnvironmentSample EnvironmentSampler::Tables::at_bilinear(const MapPosition& position) const {
@@ -192,8 +216,7 @@ EnvironmentSample EnvironmentSampler::Tables::at_bilinear(const MapPosition& pos
   result.radiance = w00 * texel(x0, y0) + w10 * texel(x1, y0) + (w01 * texel(x0, y1) + w11 * texel(x1, y1));
   const float chance = w00 * probability(x0, y0) + w10 * probability(x1, y0) + w01 * probability(x0, y1) +
                        w11 * probability(x1, y1);
-  constexpr float jacobian = static_cast<float>(2 * std::numbers::pi * std::numbers::pi);
-  result.pdf = chance * texels / (jacobian * std::max(position.sine, smallest_sine));
+  result.pdf = chance * map_density(position.sine);
   return result;
 }
 
@@ -223,8 +246,8 @@ Rgb EnvironmentSampler::radiance(Vec3f direction) const { return at(direction).r
 
 Vec2f EnvironmentSampler::inverse(Vec3f direction) const {
   const Tables& tables = *tables_;
-  if (tables.bilinear())
-    throw Error("samples of an interpolated map cannot be inverted: several numbers give the same");
+  if (tables.bilinear() || tables.options.table == EnvironmentTable::alias)
+    throw Error("cannot invert samples of an alias table or an interpolated map: several numbers give each");
   const MapPosition position = tables.locate(direction);
   const int x = tables.column_of(position.s), y = tables.row_of(position.t);
   const float across = std::clamp(position.s * tables.wide - static_cast<float>(x), 0.0f, 1.0f);
@@ -235,8 +258,22 @@ Vec2f EnvironmentSampler::inverse(Vec3f direction) const {
     const float h = side > 0 ? sine * sine / (2 * (1 + side)) : 0.5f * (1 - side);
     down = (h - row.h) / row.h_step;
   }
-  return tables.inverse.invert(x, y, {across, std::clamp(down, 0.0f, 1.0f)});
+  const Vec2f within{across, std::clamp(down, 0.0f, 1.0f)};
+  return tables.options.table == EnvironmentTable::hierarchical ? tables.quad.invert(x, y, within)
+                                                                : tables.inverse.invert(x, y, within);
 }
+
+const Image& EnvironmentSampler::map() const { return tables_->map; }
+const EnvironmentSamplerOptions& EnvironmentSampler::options() const { return tables_->options; }
+
+EnvironmentSampler::Texel EnvironmentSampler::texel_of(Vec3f direction) const {
+  const MapPosition position = tables_->locate(direction);
+  return {tables_->column_of(position.s), tables_->row_of(position.t)};
+}
+Vec3f EnvironmentSampler::direction_in(Texel texel, Vec2f within) const {
+  return tables_->solid_angle_direction(texel.x, texel.y, within);
+}
+float EnvironmentSampler::texels_per_steradian(int y) const { return tables_->rows[y].per_steradian; }
 
 double EnvironmentSampler::mean_luminance() const { return tables_->mean; }
 std::size_t EnvironmentSampler::table_bytes() const { return tables_->bytes(); }

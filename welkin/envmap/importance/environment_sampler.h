@@ -45,7 +45,7 @@ struct EnvironmentSample {
 class EnvironmentSampler {
  public:
   /// radiance: equirectangular, 3 channels, at most 65,536 each way, finite and >= 0. Throws Error otherwise. What is
-  /// below 1e-30 counts as black.
+  /// below 1e-25 counts as black.
   explicit EnvironmentSampler(Image radiance, const EnvironmentSamplerOptions& options = {});
   ~EnvironmentSampler();
   EnvironmentSampler(EnvironmentSampler&&) noexcept;
@@ -59,6 +59,17 @@ class EnvironmentSampler {
   EnvironmentSample at(Vec3f direction) const;  ///< radiance and pdf at once, cheaper
   double mean_luminance() const;                ///< over the sphere
   std::size_t table_bytes() const;              ///< of the tables, without the map itself
+
+  /// The texels themselves, for tables that others build on this map.
+  struct Texel {
+    int x = 0, y = 0;
+  };
+  const Image& map() const;
+  const EnvironmentSamplerOptions& options() const;
+  Texel texel_of(Vec3f direction) const;
+  /// Uniform per steradian in the texel for `within` in [0, 1)^2; texel_of gives the texel back.
+  Vec3f direction_in(Texel texel, Vec2f within) const;
+  float texels_per_steradian(int y) const;  ///< 1 / solid angle of a texel of this row
 
  private:
   struct Tables;

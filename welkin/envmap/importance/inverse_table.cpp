@@ -1,16 +1,21 @@
 #include <welkin/envmap/importance/inverse_table.h>
 
+#include <numeric>
+
 #include <welkin/parallel/parallel_for.h>
 #include <welkin/sampling/discrete.h>
 
 namespace welkin {
 
+InverseTable::InverseTable(int width, int height)
+    : width_(width),
+      height_(height),
+      stride_(static_cast<std::size_t>(width) + 1),
+      rows_(static_cast<std::size_t>(height) + 1),
+      columns_(stride_ * height) {}
+
 InverseTable::InverseTable(const TexelWeights& weights)
-    : width_(weights.map.width),
-      height_(weights.map.height),
-      stride_(static_cast<std::size_t>(weights.map.width) + 1),
-      rows_(static_cast<std::size_t>(weights.map.height) + 1),
-      columns_(stride_ * weights.map.height) {
+    : InverseTable(weights.map.width, weights.map.height) {
   std::vector<double> row_sums(height_);
   parallel_for(height_, 16, [&](std::size_t begin, std::size_t end) {
     std::vector<double> row(width_);
@@ -22,6 +27,17 @@ InverseTable::InverseTable(const TexelWeights& weights)
       quantised_cdf(row.data(), row.size(), columns_.data() + y * stride_);
     }
   });
+  quantised_cdf(row_sums.data(), row_sums.size(), rows_.data());
+}
+
+InverseTable::InverseTable(int width, int height, const std::vector<double>& weights)
+    : InverseTable(width, height) {
+  std::vector<double> row_sums(height_);
+  for (int y = 0; y < height; ++y) {
+    const double* row = weights.data() + static_cast<std::size_t>(y) * width;
+    row_sums[y] = std::accumulate(row, row + width, 0.0);
+    quantised_cdf(row, static_cast<std::size_t>(width), columns_.data() + y * stride_);
+  }
   quantised_cdf(row_sums.data(), row_sums.size(), rows_.data());
 }
 

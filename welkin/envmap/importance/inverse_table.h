@@ -21,6 +21,8 @@ class InverseTable {
  public:
   InverseTable() = default;
   explicit InverseTable(const TexelWeights& weights);
+  /// weights: row by row.
+  InverseTable(int width, int height, const std::vector<double>& weights);
 
   TexelChoice choose(Vec2f u) const;
   float probability(int x, int y) const {
@@ -34,6 +36,7 @@ class InverseTable {
   const std::vector<float>& column_cdfs() const { return columns_; }  ///< height times width + 1
 
  private:
+  InverseTable(int width, int height);
   const float* columns(int y) const { return columns_.data() + static_cast<std::size_t>(y) * stride_; }
 
   int width_ = 0, height_ = 0;
