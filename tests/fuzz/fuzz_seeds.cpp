@@ -4,6 +4,7 @@
 
 #include <tests/image/exr_files.h>
 #include <tests/image/ldr_files.h>
+#include <tests/scene/scene_files.h>
 #include <welkin/brdf/merl.h>
 #include <welkin/brdf/models.h>
 #include <welkin/image/codecs/dds.h>
@@ -164,6 +165,18 @@ void add_merl(const SeedFolder& seeds) {
   }
 }
 
+void add_scenes(const SeedFolder& seeds) {
+  seeds.add_to("gltf", "quad.gltf", to_bytes(quad_gltf("data:;base64," + base64(quad_buffer()))));
+  seeds.add_to("gltf", "quad.glb", glb_file(quad_gltf(""), quad_buffer()));
+  const std::string zero(1, '\0');
+  seeds.add_to("obj", "plain.obj", to_bytes(quad_obj()));
+  seeds.add_to("obj", "materials.obj", to_bytes(quad_obj() + zero + quad_mtl()));
+  seeds.add_to("obj", "texture.obj",
+               text_and_pixels(quad_obj() + zero + quad_mtl() + zero, encode_png(ByteImage(2, 2))));
+  seeds.add_to("ply", "ascii.ply", to_bytes(quad_ply_ascii()));
+  for (bool big : {false, true}) seeds.add_to("ply", big ? "big.ply" : "little.ply", quad_ply_binary(big));
+}
+
 // One block of every mode number, the reserved ones too.
 void add_bc6h(const SeedFolder& seeds) {
   for (int mode = 0; mode < 32; ++mode) {
@@ -188,6 +201,7 @@ int main(int count, char** arguments) {
   welkin::add_textures(seeds);
   welkin::add_sh(seeds);
   welkin::add_merl(seeds);
+  welkin::add_scenes(seeds);
   welkin::add_bc6h(seeds);
   return 0;
 }

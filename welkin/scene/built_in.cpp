@@ -15,9 +15,20 @@ constexpr BuiltInScene scenes[] = {
      "radius=1 (metres)"},
     {"furnace", "lossless spheres of every reflection model: they vanish in a constant environment",
      "alpha=0.25 (GGX width)"},
+    {"box",
+     "a room of coloured walls with two blocks and a rectangle light, after the Cornell box; needs no "
+     "environment",
+     "radiance=17 (of the light, W/(sr m^2))"},
+    {"shader-ball", "a ball with a ring on a foot over a chequered ground, of metallic-roughness materials",
+     "metallic=0, roughness=0.3 (perceptual), anisotropy=0"},
+    {"bumpy", "a glossy metal plane with a normal map",
+     "alpha=0.1 (GGX width), bumps=4 (to a side), slope=0.5"},
+    {"fences", "rows of thin fences on a ground: shadows, occlusion and leaks of thin things",
+     "rows=6, posts=24, thickness=0.02 (metres)"},
 };
 using Maker = Scene (*)(SceneParameters& parameters);
-constexpr Maker makers[] = {make_spheres_scene, make_plane_scene, make_furnace_scene};
+constexpr Maker makers[] = {make_spheres_scene,     make_plane_scene, make_furnace_scene, make_box_scene,
+                            make_shader_ball_scene, make_bumpy_scene, make_fences_scene};
 static_assert(std::size(scenes) == std::size(makers));
 
 }  // namespace

@@ -9,5 +9,9 @@ namespace welkin {
 Scene make_spheres_scene(SceneParameters& parameters);
 Scene make_plane_scene(SceneParameters& parameters);
 Scene make_furnace_scene(SceneParameters& parameters);
+Scene make_box_scene(SceneParameters& parameters);
+Scene make_shader_ball_scene(SceneParameters& parameters);
+Scene make_bumpy_scene(SceneParameters& parameters);
+Scene make_fences_scene(SceneParameters& parameters);
 
 }  // namespace welkin
