@@ -29,7 +29,7 @@ std::string error_of(const std::string& text) {
 TEST(Obj, QuadIsExact) {
   const Scene scene = decode(quad_obj());
   ASSERT_EQ(scene.meshes.size(), 2u);
-  const Mesh& quad = scene.meshes[0];
+  const Mesh& quad = scene.meshes.at(0);
   EXPECT_EQ(quad.name, "first");
   ASSERT_EQ(quad.positions.size(), 4u);
   EXPECT_EQ(quad.positions[2], (Vec3f{2, 2, 0}));
@@ -54,7 +54,7 @@ double area_of(const Mesh& mesh) {
 
 // A square of which a corner between two others is pulled in: a fan would cover what is outside.
 TEST(Obj, PolygonsThatAreNotConvex) {
-  const Mesh& mesh = decode(quad_obj()).meshes[1];
+  const Mesh mesh = decode(quad_obj()).meshes.at(1);
   EXPECT_EQ(mesh.triangles.size(), 3u);
   for (const auto& t : mesh.triangles) {
     const Vec3f a = mesh.positions[t[0]];
@@ -90,14 +90,14 @@ const std::string corner = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 
 TEST(Obj, SmoothingGroupsJoinNormals) {
   // Two faces at a right angle: apart without a group, one bisecting normal on their edge within one.
-  const Mesh flat = decode(corner + "f 1 2 3\nf 1 4 2\n").meshes[0];
+  const Mesh flat = decode(corner + "f 1 2 3\nf 1 4 2\n").meshes.at(0);
   EXPECT_TRUE(flat.normals.empty());
-  const Mesh smooth = decode(corner + "s 1\nf 1 2 3\nf 1 4 2\n").meshes[0];
+  const Mesh smooth = decode(corner + "s 1\nf 1 2 3\nf 1 4 2\n").meshes.at(0);
   ASSERT_EQ(smooth.positions.size(), 4u);
   EXPECT_FLOAT_EQ(smooth.normals[0].z, std::sqrt(0.5f));
   EXPECT_FLOAT_EQ(smooth.normals[0].y, std::sqrt(0.5f));
   EXPECT_FLOAT_EQ(smooth.normals[2].z, 1);
-  const Mesh apart = decode(corner + "s 1\nf 1 2 3\ns 2\nf 1 4 2\n").meshes[0];
+  const Mesh apart = decode(corner + "s 1\nf 1 2 3\ns 2\nf 1 4 2\n").meshes.at(0);
   EXPECT_EQ(apart.positions.size(), 6u);
   EXPECT_FLOAT_EQ(apart.normals[0].z, 1);
 }

@@ -108,11 +108,11 @@ Scene make_box_scene(SceneParameters& parameters) {
   lamp.emission = radiance * Rgb{1, 0.75f, 0.45f};
   const int light = add_material(scene, lamp);
   add_walls(scene, white, red, green);
-  add_rectangle(scene, {-0.25f, 1.995f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}, light);  // faces down
+  add_rectangle(scene, {-0.25f, 1.995f, 0.1f}, {0.5f, 0, 0}, {0, 0, 0.5f}, light);  // faces down
   const int tall = add_mesh(scene, make_box({-0.3f, 0, -0.3f}, {0.3f, 1.2f, 0.3f}), white);
   const int low = add_mesh(scene, make_box({-0.3f, 0, -0.3f}, {0.3f, 0.6f, 0.3f}), white);
-  add_instance(scene, tall, turned_about_y(0.3f, {-0.35f, 0, -0.3f}));
-  add_instance(scene, low, turned_about_y(-0.3f, {0.35f, 0, 0.35f}));
+  add_instance(scene, tall, turned_about_y(0.3f, {-0.35f, 0, -0.45f}));
+  add_instance(scene, low, turned_about_y(-0.3f, {0.38f, 0, 0.0f}));
   scene.cameras.push_back(perspective("front", {0, 1, 4.05f}, {0, 1, 0}, 0.66f, 1));
   return scene;
 }
@@ -177,7 +177,7 @@ Scene make_fences_scene(SceneParameters& parameters) {
       add_instance(scene, post,
                    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {step * static_cast<float>(i) - width / 2, 0, z}});
   }
-  const float distance = depth / 2 + 0.75f * width + 1;
+  const float distance = depth / 2 + 0.9f * width + 1;
   scene.cameras.push_back(
       perspective("side", {-0.35f * width, 0.25f * distance + 1, distance}, {0, 0.3f, 0}, 0.6f, 1.5f));
   return scene;
