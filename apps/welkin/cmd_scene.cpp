@@ -7,7 +7,9 @@
 
 #include "commands.h"
 
+#include <welkin/image/output_file.h>
 #include <welkin/scene/built_in.h>
+#include <welkin/scene/gltf_write.h>
 #include <welkin/scene/read_scene.h>
 
 // welkin scene: what a scene holds.
@@ -16,7 +18,7 @@ namespace welkin {
 namespace {
 
 struct SceneCommand {
-  std::string input;
+  std::string input, output;
 };
 
 std::string_view model_name(MaterialModel model) {
@@ -82,6 +84,7 @@ void run(const SceneCommand& command) {
     fmt::print(stderr, "welkin: {}: warning: {}\n", scene.source, warning);
   fmt::print("{}\n", scene.source);
   print_counts(scene);
+  if (!command.output.empty()) write_file(command.output, encode_glb(scene));
 }
 
 }  // namespace
@@ -92,7 +95,11 @@ void add_scene_command(CLI::App& app) {
   sub->add_option(
       "INPUT", command->input,
       "A .gltf, .glb, .obj or .ply file, or a built-in scene with its parameters, NAME:key=value,...");
-  sub->footer("Example: welkin scene bunny.glb");
+  sub->add_option(
+         "-o,--output", command->output,
+         "Write it as GLB for other renderers: shapes, factors of materials, cameras; no textures or lights")
+      ->needs("INPUT");
+  sub->footer("Examples:\n  welkin scene bunny.glb\n  welkin scene plane -o plane.glb");
   sub->callback([command] { run(*command); });
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 
 #include <welkin/error.h>
+#include <welkin/scene/gltf.h>
+#include <welkin/scene/gltf_write.h>
 
 namespace welkin {
 namespace {
@@ -51,6 +53,22 @@ TEST(BuiltInScenes, SphereRestsOnThePlane) {
   EXPECT_EQ(scene.spheres[0].centre.y, 0.5f);
   EXPECT_EQ(scene.spheres[0].radius, 0.5f);
   EXPECT_EQ(scene_bounds(scene)->low.y, 0);
+}
+
+// Through GLB and back: spheres are meshes then, and their polygons lie inside them by 1 - cos(pi / 256) = 8e-5.
+TEST(BuiltInScenes, ComeBackFromGlb) {
+  for (const char* name : {"plane", "box", "shader-ball", "spheres:alphas=0.5"}) {
+    const Scene scene = make_built_in_scene(name);
+    const Scene back = decode_gltf(encode_glb(scene), "back", {});
+    EXPECT_EQ(back.instances.size(), scene.instances.size() + scene.spheres.size()) << name;
+    EXPECT_EQ(back.materials.size(), scene.materials.size()) << name;
+    EXPECT_EQ(back.warnings.size(), 0u) << name;
+    ASSERT_EQ(back.cameras.size(), 1u) << name;
+    EXPECT_EQ(back.cameras[0].orthographic_height, scene.cameras[0].orthographic_height) << name;
+    EXPECT_NEAR(back.cameras[0].to_world.origin.z, scene.cameras[0].to_world.origin.z, 1e-6f) << name;
+    EXPECT_NEAR(scene_bounds(back)->high.x, scene_bounds(scene)->high.x, 1e-4f) << name;
+    EXPECT_NEAR(scene_bounds(back)->high.y, scene_bounds(scene)->high.y, 1e-4f) << name;
+  }
 }
 
 TEST(BuiltInScenes, RefuseWhatTheyDoNotKnow) {

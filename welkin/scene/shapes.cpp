@@ -81,6 +81,8 @@ Mesh make_lathe(const std::vector<OutlinePoint>& outline, int steps) {
     }
   }
   for (std::uint32_t row = 0; row + 1 < rows; ++row) {
+    const Vec2f step = outline[row + 1].position - outline[row].position;
+    if (step.x == 0 && step.y == 0) continue;
     for (std::uint32_t column = 0; column + 1 < columns; ++column) {
       const std::uint32_t a = row * columns + column, b = a + columns;
       if (outline[row].position.x > 0) mesh.triangles.push_back({a, a + 1, b + 1});

@@ -29,7 +29,7 @@ struct OutlinePoint {
 };
 
 /// The outline turned about y, `steps` (>= 3) quads around, front on the side of the normals where the outline runs
-/// counter-clockwise about its inside (upwards on the outside). u runs around, v = 1 at the outline's first point.
+/// counter-clockwise about its inside (upwards on the outside). A point twice, with two normals, is a crease. u runs around, v = 1 at the outline's first point.
 Mesh make_lathe(const std::vector<OutlinePoint>& outline, int steps);
 
 /// A ring about y: tube of radius `minor` around a circle of radius `major`.
