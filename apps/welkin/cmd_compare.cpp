@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,11 @@
 #include <welkin/sphere/equirect.h>
 
 #include "commands.h"
+#include "compare_pictures.h"
+#include "environment_options.h"
 #include "flat_file.h"
 #include "json_text.h"
+#include "source_name.h"
 
 // welkin compare A B: how far A is from B, the reference; cubes level by level and face by face.
 
@@ -30,8 +34,17 @@ constexpr std::array<const char*, 6> face_names{"+X", "-X", "+Y", "-Y", "+Z", "-
 
 struct CompareCommand {
   std::string a, b, difference_path;
-  bool json = false;
-  bool solid_angle = false;
+  std::string flip_path, report_path;
+  double pixels_per_degree = 67;
+  bool json = false, solid_angle = false, z_test = false, flip = false;
+
+  bool looks() const { return flip || !flip_path.empty() || !report_path.empty(); }
+};
+
+// What was asked for beyond the table.
+struct Extras {
+  std::optional<ZTest> z;
+  std::optional<PerceptualDifference> perceptual;
 };
 
 // One line of the report. A flat image is one part; a cube has one per level (face -1) and one per face of each level.
@@ -124,13 +137,16 @@ nlohmann::ordered_json part_json(const Part& part, bool cube) {
   return json;
 }
 
-void print_json(const CompareCommand& command, const std::vector<Part>& parts, bool cube) {
+void print_json(const CompareCommand& command, const std::vector<Part>& parts, bool cube,
+                const Extras& extras) {
   nlohmann::ordered_json json{{"a", command.a},
                               {"b", command.b},
                               {"kind", cube ? "cube" : "flat"},
                               {"weights", command.solid_angle ? "solid angle" : "equal"},
                               {"parts", nlohmann::ordered_json::array()}};
   for (const Part& part : parts) json["parts"].push_back(part_json(part, cube));
+  if (extras.z) json["z_test"] = z_test_json(*extras.z);
+  if (extras.perceptual) json["perceptual"] = perceptual_json(*extras.perceptual, command.pixels_per_degree);
   fmt::print("{}\n", json_text(json));
 }
 
@@ -169,19 +185,60 @@ void write_difference(const CompareCommand& command, const LoadedImage& a, const
 }
 
 // Before any work: a name that says another format, and one that would overwrite what is compared.
-void check_difference(const CompareCommand& command) {
-  const std::string& path = command.difference_path;
+void check_output_name(const CompareCommand& command, const std::string& option, const std::string& path,
+                       const std::string& extension) {
   if (path.empty()) return;
-  if (extension_of(path) != ".png")
-    throw CLI::ValidationError("--diff", "is written as PNG; give it a name that ends in .png");
+  if (extension_of(path) != extension)
+    throw CLI::ValidationError(option, "needs a name that ends in " + extension);
   std::error_code none;
   for (const std::string& input : {command.a, command.b})
     if (std::filesystem::equivalent(path, input, none))
-      throw Error(input, "is compared and would be overwritten; choose another name for --diff");
+      throw Error(input, "is compared and would be overwritten; choose another name for " + option);
+}
+
+void check(const CompareCommand& command) {
+  check_output_name(command, "--diff", command.difference_path, ".png");
+  check_output_name(command, "--flip-map", command.flip_path, ".png");
+  check_output_name(command, "--report", command.report_path, ".html");
+}
+
+Extras compare_pictures(const CompareCommand& command, const LoadedImage& a, const LoadedImage& b,
+                        const ImageDifference& figures) {
+  Extras extras;
+  if (!command.z_test && !command.looks()) return extras;
+  if (a.is_cube()) throw Error(command.a, "is a cube; --z-test, --flip and --report compare flat pictures");
+  if (command.z_test) extras.z = z_test_of_files(command.a, command.b, a, b);
+  if (!command.looks()) return extras;
+  CompareReport report{source_name(command.a),
+                       source_name(command.b),
+                       show_pictures(a, b),
+                       {},
+                       figures,
+                       {},
+                       command.pixels_per_degree,
+                       extras.z};
+  extras.perceptual = perceptual_difference(report.shown, command.pixels_per_degree);
+  if (!command.flip_path.empty())
+    write_file(command.flip_path, encode_png(perceptual_map_image(extras.perceptual->map)));
+  if (!command.report_path.empty()) {
+    report.perceptual = *extras.perceptual;
+    report.difference = difference_image(a.flat, b.flat);
+    write_file(command.report_path, compare_report_html(report));
+  }
+  return extras;
+}
+
+void print_extras(const CompareCommand& command, const Extras& extras) {
+  if (extras.perceptual)
+    fmt::print(
+        "\nperceptual difference at {:g} pixels a degree: mean {:.4f}, median {:.4f}, largest {:.4f}\n",
+        command.pixels_per_degree, extras.perceptual->mean, extras.perceptual->median,
+        extras.perceptual->largest);
+  if (extras.z) print_z_test(*extras.z);
 }
 
 void run(const CompareCommand& command) {
-  check_difference(command);
+  check(command);
   const LoadedImage a = load_file_or_sky(command.a), b = load_file_or_sky(command.b);
   for (const auto& [path, image] : {std::pair(&command.a, &a), std::pair(&command.b, &b)}) {
     for (const std::string& warning : image->warnings) {
@@ -191,7 +248,10 @@ void run(const CompareCommand& command) {
   check_comparable(command, a, b);
   const std::vector<Part> parts = compare_all(command, a, b);
   if (!command.difference_path.empty()) write_difference(command, a, b);
-  command.json ? print_json(command, parts, a.is_cube()) : print_table(parts, a.is_cube());
+  const Extras extras = compare_pictures(command, a, b, parts.front().difference);
+  if (command.json) return print_json(command, parts, a.is_cube(), extras);
+  print_table(parts, a.is_cube());
+  print_extras(command, extras);
 }
 
 }  // namespace
@@ -208,7 +268,23 @@ void add_compare_command(CLI::App& app) {
       "--diff", command->difference_path,
       "Write |A - B| / RMS(B) as a PNG in false colours: black 1e-6 or less, white 100 or more, lightness "
       "by the logarithm; of a cube the largest level, its faces below each other");
-  sub->footer("Example: welkin compare specular.ktx2 reference.ktx2 --json --diff difference.png");
+  sub->add_flag("--z-test", command->z_test,
+                "Whether pictures of welkin render differ by more than their standard errors (layer stderr "
+                "of A, B or both)");
+  sub->add_flag(
+      "--flip", command->flip,
+      "How different the pictures look, after FLIP (Andersson et al. 2020): 0 equal, 1 black against white");
+  sub->add_option("--flip-map", command->flip_path,
+                  "Write where they look different as a PNG in false colours");
+  sub->add_option("--pixels-per-degree", command->pixels_per_degree, "From how far the pictures are seen")
+      ->check(must_be_finite)
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
+  sub->add_option("--report", command->report_path,
+                  "Write a page with the pictures, their differences and all figures");
+  sub->footer(
+      "Examples:\n  welkin compare specular.ktx2 reference.ktx2 --json --diff difference.png\n"
+      "  welkin compare fast.exr reference.exr --z-test --flip --report difference.html");
   sub->callback([command] { run(*command); });
 }
 
