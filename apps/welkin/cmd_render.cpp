@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <welkin/image/codecs/exr.h>
+#include <welkin/image/codecs/ldr.h>
 #include <welkin/pathtrace/checkpoint.h>
 
 #include "commands.h"
@@ -13,6 +15,7 @@
 #include "render_files.h"
 #include "render_job.h"
 #include "render_options.h"
+#include "render_strategies.h"
 #include "stop_signal.h"
 
 // welkin render: a picture of a scene with its standard error.
@@ -99,10 +102,35 @@ void finish(const RenderCommand& command, const PictureState& state, const Atten
   std::filesystem::remove(state_name(command.output), none);
 }
 
+// --sampling compare: the converged picture as .exr, all pictures as a sheet .png, the figures as .json.
+void run_comparison(const RenderCommand& command, const RenderJob& job) {
+  std::optional<StrategyComparison> comparison;
+  const StopLater stop;
+  {
+    std::string shown;
+    std::unique_ptr<ProgressLine> line;
+    comparison = compare_strategies(job, [&](const std::string& what, double share) {
+      if (what != shown) line.reset(), line = std::make_unique<ProgressLine>(what);
+      shown = what;
+      line->show(share);
+      return stop.signal_number() == 0;
+    });
+  }
+  if (!comparison) throw Stopped(stop.signal_number(), "stopped; nothing was written");
+  const std::string json = strategy_json(*comparison);
+  const std::vector<OutputFile> files{
+      {command.output, encode_exr(comparison->converged.radiance, {ExrPixelType::single_float, 1})},
+      {picture_name(command.output), encode_png(strategy_sheet(*comparison, tone_options(command)))},
+      {std::filesystem::path(command.output).replace_extension(".json"), {json.begin(), json.end()}}};
+  write_files(files);
+  print_strategies(*comparison);
+}
+
 void run(const RenderCommand& command) {
   check_render_output(command);
   const RenderJob job = make_render_job(command);
   for (const std::string& warning : job.warnings) fmt::print(stderr, "welkin: warning: {}\n", warning);
+  if (command.sampling == "compare") return run_comparison(command, job);
   PictureState state = first_state(command, job);
   const RenderScene scene(job.scene, job.environment ? &*job.environment : nullptr);
   const auto start = steady_clock::now();

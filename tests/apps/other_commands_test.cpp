@@ -12,7 +12,8 @@ constexpr double pi = std::numbers::pi;
 using OtherCommandsTest = CommandTest;
 
 TEST_F(OtherCommandsTest, HelpOfEachShowsAnExample) {
-  for (const std::string command : {"ibl", "filter", "info", "convert", "compare", "reflect", "sh", "sky"}) {
+  for (const std::string command :
+       {"ibl", "filter", "info", "convert", "compare", "reflect", "render", "sh", "sky"}) {
     const std::string help = run_well({command, "--help"});
     EXPECT_NE(help.find("Example"), std::string::npos) << command;
     EXPECT_NE(help.find("welkin " + command + " "), std::string::npos) << command;
