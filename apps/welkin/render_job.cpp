@@ -11,6 +11,7 @@
 #include <welkin/pathtrace/fingerprint.h>
 #include <welkin/scene/built_in.h>
 #include <welkin/scene/read_scene.h>
+#include <welkin/scene/read_scene.h>
 
 namespace welkin {
 namespace {
