@@ -41,12 +41,12 @@ int material_of(const Scene& scene, const Hit& hit) {
 Regions find_regions(const RenderJob& job) {
   const RayScene rays(job.scene);
   const PictureSize size = job.options.size;
+  const CameraRays camera(job.camera, size);
   Regions regions;
   std::vector<int> number(job.scene.materials.size(), -1);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
-      const auto hit = rays.closest(
-          camera_ray(job.camera, size, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+      const auto hit = rays.closest(camera.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
       regions.material_of_pixel.push_back(hit ? material_of(job.scene, *hit) : -1);
       if (hit) number[static_cast<std::size_t>(regions.material_of_pixel.back())] = 0;
     }
