@@ -114,8 +114,10 @@ void add_output_options(CLI::App& sub, RenderCommand& command) {
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   sub.add_flag("--resume", command.resume, "Go on with FILE.exr.state, if there is one, to the same picture");
-  sub.add_flag("--keep-state", command.keep_state,
-               "Leave FILE.exr.state at the end, for more samples with --resume and a larger --spp");
+  sub.add_flag(
+      "--keep-state", command.keep_state,
+      "Leave FILE.exr.state at the end, for more samples with --resume and a larger --spp (the same bytes "
+      "as at once where the first --spp is a multiple of 16)");
 }
 
 }  // namespace

@@ -85,9 +85,9 @@ TEST_F(RenderCommandTest, StoppedAndResumedIsTheSamePicture) {
 }
 
 TEST_F(RenderCommandTest, KeptStatesGoOnToMoreSamples) {
-  run_well(with(small, {"--spp", "24", "-o", "f.exr", "--keep-state"}));
-  run_well(with(small, {"--spp", "40", "-o", "f.exr", "--resume"}));
-  run_well(with(small, {"--spp", "40", "-o", "whole.exr"}));
+  run_well(with(small, {"--spp", "32", "-o", "f.exr", "--keep-state"}));
+  run_well(with(small, {"--spp", "56", "-o", "f.exr", "--resume"}));
+  run_well(with(small, {"--spp", "56", "-o", "whole.exr"}));
   EXPECT_EQ(read_text(at("f.exr")), read_text(at("whole.exr")));
 }
 

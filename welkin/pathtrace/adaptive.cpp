@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <welkin/parallel/parallel_for.h>
-#include <welkin/pathtrace/picture.h>
+#include <welkin/pathtrace/picture_loop.h>
 
 // When a pixel has samples enough. The error of one pixel is known with seven degrees of freedom only, and a pixel that
 // has not met the one bright thing in its sight looks quiet: both are why the mean of the variance over 5 x 5 pixels
@@ -73,12 +73,12 @@ ErrorMap map_errors(const PictureState& state) {
 }
 
 // The error brings the number of samples it wants, n (error / target)^2, but no more than twice what there is: the
-// error may be a chance. Whole turns of all replicates.
+// error may be a chance. Whole batches, so that these are the same wherever a run is stopped.
 std::uint32_t next_goal(std::uint32_t count, double excess, std::uint32_t most) {
-  constexpr auto turn = static_cast<std::uint32_t>(picture_replicates);
+  constexpr std::uint32_t batch = picture_loop::batch_size;
   const double wanted = count * std::clamp(excess, 1.0, 2.0);
-  const auto turns = static_cast<std::uint32_t>(std::ceil(wanted / turn));
-  return std::min(most, std::max(count + turn, turns * turn));
+  const auto batches = static_cast<std::uint32_t>(std::ceil(wanted / batch));
+  return std::min(most, std::max(count / batch + 1, batches) * batch);
 }
 
 bool plan_adaptive(PictureState& state, const PictureOptions& options) {
@@ -94,13 +94,14 @@ bool plan_adaptive(PictureState& state, const PictureOptions& options) {
   return any;
 }
 
-// All pixels alike: rounds that double, up to 64 samples, so that there is soon something to see.
+// All pixels alike: rounds of whole batches that double, up to 64 samples, so that there is soon something to see.
 bool plan_uniform(PictureState& state, std::uint32_t samples) {
   constexpr std::uint32_t longest = 64;
   const std::uint32_t least = *std::min_element(state.count.begin(), state.count.end());
   if (least >= samples) return false;
-  const std::uint32_t goal =
-      std::min(samples, least + std::clamp<std::uint32_t>(least, picture_replicates, longest));
+  constexpr std::uint32_t batch = picture_loop::batch_size;
+  const std::uint32_t whole = (least + std::clamp(least, batch, longest)) / batch * batch;
+  const std::uint32_t goal = std::min(samples, whole);
   for (std::size_t i = 0; i < state.count.size(); ++i) state.goal[i] = std::max(state.count[i], goal);
   return true;
 }

@@ -55,7 +55,8 @@ struct PictureProgress {
 using PictureObserver = std::function<bool(const PictureProgress&)>;
 
 /// Adds samples until the options are met (true) or the observer stops it (false). Can go on with any state that the
-/// same scene, camera and options gave, and with that of fewer samples where target_error is 0.
+/// same scene, camera and options gave, and with that of fewer samples where target_error is 0 (the same bytes if those
+/// were a multiple of 16, what is traced together; else the same but for rounding).
 bool render_picture(PictureState& state, const RenderScene& scene, const Camera& camera,
                     const PictureOptions& options, const PictureObserver& observer = {});
 
