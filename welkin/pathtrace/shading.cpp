@@ -32,6 +32,12 @@ void set_widths(Scatter& scatter, float perceptual_roughness, float anisotropy) 
   scatter.alpha_y = std::clamp(alpha * (1 - anisotropy), 1e-3f, 1.0f);
 }
 
+// Schlick's term keeps f90 = 1 down to an index of 1, where there is no interface and nothing to reflect. Below F0 = 0.02
+// (index 1.33) f90 falls with F0, so that an index of 1 leaves the diffuse base alone.
+bool has_dielectric_part(MaterialModel model) {
+  return model == MaterialModel::metallic_roughness || model == MaterialModel::coated_diffuse;
+}
+
 Scatter plain_scatter(const Material& m) {
   Scatter scatter;
   scatter.model = scatter_model(m.model);
@@ -39,6 +45,7 @@ Scatter plain_scatter(const Material& m) {
   scatter.color = m.base_color;
   const float ratio = (m.ior - 1) / (m.ior + 1);
   scatter.f0 = ratio * ratio;
+  if (has_dielectric_part(m.model)) scatter.f90 = std::min(1.0f, 50 * scatter.f0);
   set_widths(scatter, m.perceptual_roughness, m.anisotropy);
   scatter.metallic = m.metallic;
   scatter.exponent = m.exponent;

@@ -61,7 +61,7 @@ struct Material {
   float base_alpha = 1;                          ///< coverage
   float metallic = 1, perceptual_roughness = 1;  ///< alpha = perceptual_roughness^2
   float anisotropy = 0;  ///< alpha_x = alpha (1 + a), alpha_y = alpha (1 - a); in (-1, 1)
-  float ior = 1.5f;
+  float ior = 1.5f;  ///< of the dielectric part; 1: it reflects nothing and the base is alone
   float exponent = 100, sigma_radians = 0;
   std::array<float, 3> lafortune_c{-1, -1, 1};
   Rgb eta{0.2f, 0.9f, 1.1f}, k{3.9f, 2.4f, 2.2f};
