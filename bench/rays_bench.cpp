@@ -182,7 +182,7 @@ EnvironmentSampler sky() {
 
 Camera view_of(const Scene& scene) { return default_camera(*scene_bounds(scene), 1.5); }
 
-constexpr PictureSize size{192, 128};
+constexpr PictureSize size{96, 64};
 constexpr int rows_per_chunk = 2;
 constexpr std::size_t chunks = size.height / rows_per_chunk;
 
@@ -217,7 +217,7 @@ void compare(bench::Report& report, const RenderScene& render, const BareEmbree&
   for (const auto& log : logs) rays += log.size();
   std::vector<double> sums(chunks), met(chunks);
   Clocks own, other;
-  for (int run = 0; run < 9; ++run) {
+  for (int run = 0; run < 40; ++run) {
     time_into(own, [&] {
       parallel_for(chunks, 1, [&](std::size_t begin, std::size_t) {
         const FlushDenormals flush;

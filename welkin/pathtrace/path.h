@@ -48,9 +48,9 @@ class PathTracer {
     assert(camera_rays.size() <= RayScene::batch_size);
     count_ = camera_rays.size();
     for (std::size_t i = 0; i < count_; ++i) {
-      rays_out_[i] = camera_rays[i];
-      paths_[i] = Path();
-      paths_[i].sample = &samples[i];
+      space_.rays_out[i] = camera_rays[i];
+      space_.paths[i] = Path();
+      space_.paths[i].sample = &samples[i];
     }
     for (int bounce = 0; count_ > 0; ++bounce) step(bounce);
   }
@@ -68,37 +68,86 @@ class PathTracer {
     Path* path = nullptr;
   };
 
-  /// Takes all paths from their rays to the next.
+  /// A surface that a path has met.
+  struct Vertex {
+    ShadingPoint point;
+    Path* path = nullptr;
+    Vec3f ray_direction;
+    float lobe = 0;     ///< which of the BRDF's lobes goes on
+    LightSample light;  ///< the light that was picked for it
+  };
+
+  /// What 16 samples need on their way: too large to be made anew each time, so every thread keeps one.
+  struct Workspace {
+    Path paths[RayScene::batch_size];
+    Ray rays_out[RayScene::batch_size];  ///< the next ray of each
+    Hit hits[RayScene::batch_size];
+    Ray shadow_rays[RayScene::batch_size];
+    Vertex vertices[RayScene::batch_size];
+    Candidate candidates[RayScene::batch_size];
+  };
+  static Workspace& workspace() {
+    thread_local Workspace space;
+    return space;
+  }
+
+  /// Takes all paths from their rays to the next. What waits for memory (surfaces, the environment's tables) is done for
+  /// all paths in loops of its own, so that the waits overlap.
   void step(int bounce) {
     const RayKind kind = bounce == 0 ? RayKind::side_by_side : RayKind::scattered;
-    const std::uint32_t met = rays_.closest(std::span<const Ray>(rays_out_, count_), hits_, kind);
-    prefetch_surfaces(tables_.rays, met, hits_);
+    const std::uint32_t met = rays_.closest(std::span<const Ray>(space_.rays_out, count_), space_.hits, kind);
+    prefetch_surfaces(tables_.rays, met, space_.hits);
+    for (std::size_t i = 0; i < count_; ++i) {
+      if ((met >> i & 1) == 0) add_environment(space_.paths[i], space_.rays_out[i].direction, bounce);
+    }
+    const std::size_t count = meet_surfaces(met, bounce);
+    for (std::size_t i = 0; i < count; ++i) pick_light(space_.vertices[i]);
     Path* reflected[RayScene::batch_size];
     std::size_t shadows = 0, alive = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      Path& path = paths_[i];
-      const Ray ray = rays_out_[i];
-      if ((met >> i & 1) == 0) {
-        add_environment(path, ray.direction, bounce);
-        continue;
-      }
-      ShadingPoint point;
-      point.surface = surface_at(tables_.rays, hits_[i], ray);
-      if (tables_.materials[point.surface.material].emits) add_emission(path, bounce, hits_[i], point);
-      if (bounce > bounces_) continue;  // this ray only looked for light
-      prepare_shading(tables_.scene, tables_.materials, ray.direction, point);
-      if (bounce == 0) describe(point, *path.sample);
-      const Vec2f choice = path.sample->stream.next_2d(), on_light = path.sample->stream.next_2d();
-      const Rgb light = direct_light(point, choice.x, on_light, shadow_rays_[shadows]);
-      if (!is_black(light)) candidates_[shadows++] = {path.throughput * light, &path};
-      if (go_on(path, point, bounce, choice.y, rays_out_[alive])) reflected[alive++] = &path;
+    for (std::size_t i = 0; i < count; ++i) {
+      Vertex& at = space_.vertices[i];
+      prepare_shading(tables_.scene, tables_.materials, at.ray_direction, at.point);
+      if (bounce == 0) describe(at.point, *at.path->sample);
+      const Rgb light = direct_light(at.point, at.light, space_.shadow_rays[shadows]);
+      if (!is_black(light)) space_.candidates[shadows++] = {at.path->throughput * light, at.path};
+      if (go_on(*at.path, at.point, bounce, at.lobe, space_.rays_out[alive])) reflected[alive++] = at.path;
     }
-    const std::uint32_t hidden = rays_.occluded(std::span<const Ray>(shadow_rays_, shadows));
+    const std::uint32_t hidden = rays_.occluded(std::span<const Ray>(space_.shadow_rays, shadows));
     for (std::size_t i = 0; i < shadows; ++i) {
-      if ((hidden >> i & 1) == 0) add(candidates_[i].light, bounce, *candidates_[i].path->sample);
+      if ((hidden >> i & 1) == 0) add(space_.candidates[i].light, bounce, *space_.candidates[i].path->sample);
     }
-    for (std::size_t i = 0; i < alive; ++i) paths_[i] = *reflected[i];  // never to a later place
+    for (std::size_t i = 0; i < alive; ++i) space_.paths[i] = *reflected[i];  // never to a later place
     count_ = alive;
+  }
+
+  /// Fills space_.vertices with what was met and goes on; returns how many.
+  std::size_t meet_surfaces(std::uint32_t met, int bounce) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if ((met >> i & 1) == 0) continue;
+      Vertex& at = space_.vertices[count];
+      at.point.surface = surface_at(tables_.rays, space_.hits[i], space_.rays_out[i]);
+      if (tables_.materials[at.point.surface.material].emits) {
+        add_emission(space_.paths[i], bounce, space_.hits[i], at.point);
+      }
+      if (bounce > bounces_) continue;  // this ray only looked for light
+      at.path = &space_.paths[i];
+      at.ray_direction = space_.rays_out[i].direction;
+      ++count;
+    }
+    return count;
+  }
+
+  void pick_light(Vertex& at) const {
+    const LightTable& lights = tables_.lights;
+    const Vec2f choice = at.path->sample->stream.next_2d(), u = at.path->sample->stream.next_2d();
+    at.lobe = choice.y;
+    const Vec3f from = at.point.surface.position;
+    if (options_.sampling != LightSampling::bsdf) {
+      at.light = lights.empty() ? LightSample() : lights.sample(from, choice.x, u);
+    } else {  // what has no size, no ray finds
+      at.light = lights.has_punctual_lights() ? lights.sample_punctual(from, choice.x) : LightSample();
+    }
   }
 
   static void describe(const ShadingPoint& point, Sample& sample) {
@@ -163,15 +212,7 @@ class PathTracer {
   }
 
   /// What the surface reflects of one light that was picked, if `shadow` meets nothing.
-  Rgb direct_light(const ShadingPoint& point, float select, Vec2f u, Ray& shadow) const {
-    const LightTable& lights = tables_.lights;
-    const bool punctual_only = options_.sampling == LightSampling::bsdf;
-    if (lights.empty() || (punctual_only && !lights.has_punctual_lights()) || is_delta(*point.scatter)) {
-      return {};
-    }
-    const Vec3f from = point.surface.position;
-    const LightSample light =
-        punctual_only ? lights.sample_punctual(from, select) : lights.sample(from, select, u);
+  Rgb direct_light(const ShadingPoint& point, const LightSample& light, Ray& shadow) const {
     if (is_black(light.radiance) || !(light.pdf > 0) || !point.faces(light.direction)) return {};
     const Vec3f local = point.frame.to_local(light.direction);
     if (!(local.z > 0)) return {};
@@ -212,13 +253,9 @@ class PathTracer {
   const RenderScene::Tables& tables_;
   const IntegratorOptions& options_;
   Rays& rays_;
+  Workspace& space_ = workspace();
   int bounces_ = 0;
   std::size_t count_ = 0;  ///< paths on their way
-  Path paths_[RayScene::batch_size];
-  Ray rays_out_[RayScene::batch_size];  ///< the next ray of each
-  Hit hits_[RayScene::batch_size];
-  Ray shadow_rays_[RayScene::batch_size];
-  Candidate candidates_[RayScene::batch_size];
 };
 
 }  // namespace welkin
