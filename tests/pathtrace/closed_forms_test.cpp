@@ -11,7 +11,8 @@ namespace {
 
 using namespace oracle;
 
-const LightSampling all_samplings[] = {LightSampling::bsdf, LightSampling::light, LightSampling::mis};
+const LightSampling all_samplings[] = {LightSampling::bsdf, LightSampling::light, LightSampling::mis,
+                                       LightSampling::product};
 
 Material lambert(float albedo) {
   Material m;

@@ -61,16 +61,17 @@ TEST_P(Furnace, LosslessSphereCannotBeSeen) {
   EXPECT_LT(e.standard_error, 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, Furnace,
-    testing::Combine(testing::Values(MaterialModel::metallic_roughness, MaterialModel::lambert,
-                                     MaterialModel::oren_nayar, MaterialModel::phong,
-                                     MaterialModel::blinn_phong, MaterialModel::lafortune, MaterialModel::ggx,
-                                     MaterialModel::ggx_conductor, MaterialModel::mirror,
-                                     MaterialModel::conductor, MaterialModel::dielectric,
-                                     MaterialModel::coated_diffuse),
-                     testing::Values(Integrator::direct, Integrator::path),
-                     testing::Values(LightSampling::bsdf, LightSampling::light, LightSampling::mis)));
+INSTANTIATE_TEST_SUITE_P(All, Furnace,
+                         testing::Combine(testing::Values(MaterialModel::metallic_roughness,
+                                                          MaterialModel::lambert, MaterialModel::oren_nayar,
+                                                          MaterialModel::phong, MaterialModel::blinn_phong,
+                                                          MaterialModel::lafortune, MaterialModel::ggx,
+                                                          MaterialModel::ggx_conductor, MaterialModel::mirror,
+                                                          MaterialModel::conductor, MaterialModel::dielectric,
+                                                          MaterialModel::coated_diffuse),
+                                          testing::Values(Integrator::direct, Integrator::path),
+                                          testing::Values(LightSampling::bsdf, LightSampling::light,
+                                                          LightSampling::mis, LightSampling::product)));
 
 }  // namespace
 }  // namespace welkin

@@ -144,7 +144,7 @@ TEST(Strategies, AllAgreeOnDirectLight) {
   const RenderScene render(scene, &sky);
   IntegratorOptions mis, other;
   mis.integrator = other.integrator = Integrator::direct;
-  for (const LightSampling sampling : {LightSampling::bsdf, LightSampling::light}) {
+  for (const LightSampling sampling : {LightSampling::bsdf, LightSampling::light, LightSampling::product}) {
     other.sampling = sampling;
     expect_agreement(render, mis, other, 512, 0.01);
   }
@@ -158,7 +158,7 @@ TEST(Strategies, AllAgreeOnPaths) {
   const EnvironmentSampler sky = uneven_sky();
   const RenderScene render(scene, &sky);
   IntegratorOptions mis, other;
-  for (const LightSampling sampling : {LightSampling::bsdf, LightSampling::light}) {
+  for (const LightSampling sampling : {LightSampling::bsdf, LightSampling::light, LightSampling::product}) {
     other.sampling = sampling;
     expect_agreement(render, mis, other, 512, 0.015);
   }

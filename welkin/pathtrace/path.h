@@ -32,6 +32,10 @@ class PathTracer {
   PathTracer(const RenderScene::Tables& tables, const IntegratorOptions& options, Rays& rays)
       : tables_(tables), options_(options), rays_(rays) {
     bounces_ = options.integrator == Integrator::direct ? 0 : std::max(options.max_bounces, 0);
+    if (options.sampling == LightSampling::product && tables.environment != nullptr) {
+      product_ = &tables.product();
+      lights_ = &product_->others;
+    }
   }
 
   /// One ray of the camera and the numbers of its sample in; radiance, albedo, normal, coverage and the position of the
@@ -61,6 +65,7 @@ class PathTracer {
     Rgb throughput{1, 1, 1};
     float pdf = std::numeric_limits<float>::infinity();  ///< of its ray; infinite for camera and mirrors
     Vec3f from;                                          ///< the surface that the ray left
+    float product_density = 0;                           ///< of product sampling along the ray
   };
   /// Light that reaches a camera if nothing is in between.
   struct Candidate {
@@ -82,9 +87,9 @@ class PathTracer {
     Path paths[RayScene::batch_size];
     Ray rays_out[RayScene::batch_size];  ///< the next ray of each
     Hit hits[RayScene::batch_size];
-    Ray shadow_rays[RayScene::batch_size];
+    Ray shadow_rays[2 * RayScene::batch_size];  ///< two a surface with product sampling
     Vertex vertices[RayScene::batch_size];
-    Candidate candidates[RayScene::batch_size];
+    Candidate candidates[2 * RayScene::batch_size];
   };
   static Workspace& workspace() {
     thread_local Workspace space;
@@ -103,24 +108,33 @@ class PathTracer {
     const std::size_t count = meet_surfaces(met, bounce);
     for (std::size_t i = 0; i < count; ++i) pick_light(space_.vertices[i]);
     Path* reflected[RayScene::batch_size];
-    std::size_t shadows = 0, alive = 0;
+    std::size_t alive = 0;
+    shadows_ = 0;
     for (std::size_t i = 0; i < count; ++i) {
       Vertex& at = space_.vertices[i];
       prepare_shading(tables_.scene, tables_.materials, at.ray_direction, at.point);
       if (bounce == 0) describe(at.point, *at.path->sample);
-      const Rgb light = direct_light(at.point, at.light, space_.shadow_rays[shadows]);
-      if (!is_black(light)) space_.candidates[shadows++] = {at.path->throughput * light, at.path};
+      const Rgb light = direct_light(at.point, at.light, space_.shadow_rays[shadows_]);
+      if (!is_black(light)) space_.candidates[shadows_++] = {at.path->throughput * light, at.path};
       if (go_on(*at.path, at.point, bounce, at.lobe, space_.rays_out[alive])) reflected[alive++] = at.path;
     }
-    const std::uint32_t hidden = rays_.occluded(std::span<const Ray>(space_.shadow_rays, shadows));
-    for (std::size_t i = 0; i < shadows; ++i) {
-      if ((hidden >> i & 1) == 0) add(space_.candidates[i].light, bounce, *space_.candidates[i].path->sample);
-    }
+    add_what_is_visible(bounce);
     for (std::size_t i = 0; i < alive; ++i) space_.paths[i] = *reflected[i];  // never to a later place
     count_ = alive;
   }
 
-  /// Fills space_.vertices with what was met and goes on; returns how many.
+  void add_what_is_visible(int bounce) {
+    for (std::size_t begin = 0; begin < shadows_; begin += RayScene::batch_size) {
+      const std::size_t count = std::min(shadows_ - begin, RayScene::batch_size);
+      const std::uint32_t hidden = rays_.occluded(std::span<const Ray>(space_.shadow_rays + begin, count));
+      for (std::size_t i = 0; i < count; ++i) {
+        const Candidate& candidate = space_.candidates[begin + i];
+        if ((hidden >> i & 1) == 0) add(candidate.light, bounce, *candidate.path->sample);
+      }
+    }
+  }
+
+  /// Fills the vertices with what was met and goes on; returns how many.
   std::size_t meet_surfaces(std::uint32_t met, int bounce) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -139,7 +153,7 @@ class PathTracer {
   }
 
   void pick_light(Vertex& at) const {
-    const LightTable& lights = tables_.lights;
+    const LightTable& lights = *lights_;
     const Vec2f choice = at.path->sample->stream.next_2d(), u = at.path->sample->stream.next_2d();
     at.lobe = choice.y;
     const Vec3f from = at.point.surface.position;
@@ -184,6 +198,11 @@ class PathTracer {
       add(path.throughput * tables_.environment->radiance(direction), bounce - 1, *path.sample);
       return;
     }
+    if (product_ != nullptr) {  // densities of one sample and of several candidates: the balance heuristic
+      const float weight = path.pdf / (path.pdf + path.product_density);
+      add(weight * path.throughput * tables_.environment->radiance(direction), bounce - 1, *path.sample);
+      return;
+    }
     const EnvironmentSample sky = tables_.environment->at(direction);
     const float weight = weight_of_path(path, tables_.lights.pdf_of_environment(sky.pdf));
     add(weight * path.throughput * sky.radiance, bounce - 1, *path.sample);
@@ -193,7 +212,7 @@ class PathTracer {
     const Surface& s = point.surface;
     const Rgb emission = tables_.lights.emission(s.material, s.front, s.texcoords);
     if (is_black(emission)) return;
-    const float light_pdf = path.pdf < delta_pdf ? tables_.lights.pdf_of_surface(path.from, hit, s) : 0.0f;
+    const float light_pdf = path.pdf < delta_pdf ? lights_->pdf_of_surface(path.from, hit, s) : 0.0f;
     add(weight_of_path(path, light_pdf) * path.throughput * emission, bounce - 1, *path.sample);
   }
 
@@ -217,21 +236,22 @@ class PathTracer {
     const Vec3f local = point.frame.to_local(light.direction);
     if (!(local.z > 0)) return {};
     const ScatterValue scattered = evaluate_with_pdf(*point.scatter, local, point.view);
-    const bool shared = options_.sampling == LightSampling::mis && !light.is_delta;
+    const bool shared = options_.sampling != LightSampling::light && !light.is_delta;
     const float weight = shared ? mis_weight(options_.heuristic, light.pdf, scattered.pdf) : 1.0f;
     shadow = shadow_ray(point.surface, light);
     return (weight / light.pdf) * scattered.value * light.radiance;
   }
 
   /// Takes the path's next direction. False where it ends here.
-  bool go_on(Path& path, const ShadingPoint& point, int bounce, float lobe, Ray& ray) const {
+  bool go_on(Path& path, const ShadingPoint& point, int bounce, float lobe, Ray& ray) {
     SampleStream& stream = path.sample->stream;
     const ScatterSample next = sample(*point.scatter, point.view, stream.next_2d(), lobe);
     const bool last = bounce == bounces_;
+    const Vec3f direction = next.pdf > 0 ? point.frame.to_world(next.light) : point.frame.normal;
+    if (product_ != nullptr) sample_product(path, point, direction);
     // The ray after the last reflection looks for lights that light samples do not count.
     if (last && options_.sampling == LightSampling::light && !next.is_delta()) return false;
     if (is_black(next.weight) || !(next.pdf > 0)) return false;
-    const Vec3f direction = point.frame.to_world(next.light);
     if (!point.faces(direction)) return false;
     path.throughput *= next.weight;
     if (!last && bounce + 1 >= options_.roulette_bounce && !survives(path, stream.next_1d())) return false;
@@ -239,6 +259,18 @@ class PathTracer {
     path.from = point.surface.position;
     ray = {leave_surface(point.surface, direction), 0, direction, 1e30f};
     return true;
+  }
+
+  /// A direction by BRDF times environment, beside `along`, that of the BRDF's own sample.
+  void sample_product(Path& path, const ShadingPoint& point, Vec3f along) {
+    SampleStream& stream = path.sample->stream;
+    const Vec2f u = stream.next_2d();
+    const float keep = stream.next_1d();
+    const ProductSample found = product_->environment.sample(*point.scatter, point.frame, point.view, u, keep,
+                                                             along, path.product_density);
+    if (is_black(found.light) || !point.faces(found.direction)) return;
+    space_.shadow_rays[shadows_] = {leave_surface(point.surface, found.direction), 0, found.direction, 1e30f};
+    space_.candidates[shadows_++] = {path.throughput * found.light, &path};
   }
 
   /// Russian roulette: the path lives with probability q and then counts 1 / q times, so its mean stays. q is what it still
@@ -254,8 +286,11 @@ class PathTracer {
   const IntegratorOptions& options_;
   Rays& rays_;
   Workspace& space_ = workspace();
+  const LightTable* lights_ = &tables_.lights;             ///< those that pick_light picks among
+  const RenderScene::Tables::Product* product_ = nullptr;  ///< samples the environment where not null
   int bounces_ = 0;
   std::size_t count_ = 0;  ///< paths on their way
+  std::size_t shadows_ = 0;
 };
 
 }  // namespace welkin
