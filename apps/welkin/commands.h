@@ -14,6 +14,7 @@ void add_ibl_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_reflect_command(CLI::App& app);
 void add_render_command(CLI::App& app);
+void add_sampling_command(CLI::App& app);
 void add_scene_command(CLI::App& app);
 void add_sh_command(CLI::App& app);
 void add_sky_command(CLI::App& app);

@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   welkin::add_brdf_command(app);
   welkin::add_render_command(app);
   welkin::add_sh_command(app);
+  welkin::add_sampling_command(app);
   welkin::add_scene_command(app);
   welkin::add_sky_command(app);
   try {

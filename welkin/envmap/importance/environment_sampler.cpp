@@ -57,7 +57,14 @@ std::vector<RowShape> row_shapes(int width, int height) {
   return rows;
 }
 
-void check(const Image& map, const EnvironmentSamplerOptions& options) {
+// The tent about a texel's centre, -1 to 1, by inverting its CDF.
+float tent_offset(float u) { return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
+
+float clamped_unit(float v, float margin) { return margin + (1 - 2 * margin) * std::min(v, 1.0f); }
+
+}  // namespace
+
+void check_sampled_map(const Image& map, const EnvironmentSamplerOptions& options) {
   if (map.empty() || map.channels != 3)
     throw Error("an environment to sample needs 3 channels and at least one texel");
   if (map.width > 65536 || map.height > 65536)
@@ -69,13 +76,6 @@ void check(const Image& map, const EnvironmentSamplerOptions& options) {
     if (!(value >= 0 && value <= 3.4e38f))
       throw Error("an environment to sample has a value that is negative or not finite");
 }
-
-// The tent about a texel's centre, -1 to 1, by inverting its CDF.
-float tent_offset(float u) { return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
-
-float clamped_unit(float v, float margin) { return margin + (1 - 2 * margin) * std::min(v, 1.0f); }
-
-}  // namespace
 
 struct EnvironmentSampler::Tables {
   Tables(Image&& radiance, const EnvironmentSamplerOptions& chosen);
@@ -221,7 +221,7 @@ EnvironmentSample EnvironmentSampler::Tables::at_bilinear(const MapPosition& pos
 }
 
 EnvironmentSampler::EnvironmentSampler(Image radiance, const EnvironmentSamplerOptions& options) {
-  check(radiance, options);
+  check_sampled_map(radiance, options);
   tables_ = std::make_unique<Tables>(std::move(radiance), options);
 }
 EnvironmentSampler::~EnvironmentSampler() = default;

@@ -38,6 +38,9 @@ struct EnvironmentSample {
   float pdf = 0;    ///< per steradian, > 0; 0: the environment is black and there is no sample
 };
 
+/// Throws Error for a map or options that cannot be sampled, as EnvironmentSampler says.
+void check_sampled_map(const Image& radiance, const EnvironmentSamplerOptions& options);
+
 /// Directions towards an environment with a density that follows its radiance: the 2-D inverse transform over a
 /// piecewise constant density (Pharr, Jakob & Humphreys 2016, section 13.6.7), in three kinds of tables.
 /// sample, pdf and inverse belong together: pdf is exactly the density of sample (per steradian; integrates to 1), above 0

@@ -3,4 +3,5 @@ set(WELKIN_IMPORTANCE_SOURCES
   importance/alias_table.cpp
   importance/environment_sampler.cpp
   importance/inverse_table.cpp
-  importance/quad_table.cpp)
+  importance/quad_table.cpp
+  importance/sampling_table.cpp)
