@@ -5,6 +5,7 @@
 #include <welkin/error.h>
 #include <welkin/image/codecs/dds.h>
 #include <welkin/image/codecs/exr.h>
+#include <welkin/image/codecs/exr_layers.h>
 #include <welkin/image/codecs/hdr.h>
 #include <welkin/image/codecs/ktx2.h>
 #include <welkin/image/codecs/ldr.h>

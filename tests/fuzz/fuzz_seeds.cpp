@@ -9,10 +9,12 @@
 #include <welkin/brdf/models.h>
 #include <welkin/image/codecs/dds.h>
 #include <welkin/image/codecs/exr.h>
+#include <welkin/image/codecs/exr_layers.h>
 #include <welkin/image/codecs/hdr.h>
 #include <welkin/image/codecs/ktx2.h>
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/output_file.h>
+#include <welkin/pathtrace/checkpoint.h>
 #include <welkin/sh/forms/document.h>
 
 // Usage: fuzz_seeds FOLDER. Writes small valid files of every form into FOLDER/<reader>, and all images into
@@ -80,7 +82,9 @@ std::vector<ExrChannel> exr_channels(Imf::PixelType type, std::initializer_list<
 
 void add_exr_form(const SeedFolder& seeds, const std::string& name, const ExrForm& form,
                   const std::vector<ExrChannel>& channels) {
-  seeds.add("exr", name + ".exr", exr_file(exr_header(form, channels), channels));
+  const Bytes bytes = exr_file(exr_header(form, channels), channels);
+  seeds.add("exr", name + ".exr", bytes);
+  seeds.add_to("exr_layers", name + ".exr", bytes);
 }
 
 void add_exr(const SeedFolder& seeds) {
@@ -98,6 +102,22 @@ void add_exr(const SeedFolder& seeds) {
   add_exr_form(seeds, "uint", {}, exr_channels(Imf::UINT, {"light.R", "light.G", "light.B"}));
   add_exr_form(seeds, "window", {.data = {{-2, 1}, {3, 5}}, .display = {{0, 0}, {4, 4}}}, rgb);
   seeds.add("exr", "ours.exr", encode_exr(picture(5, 4), {.stored_scale = 4}));
+  seeds.add_to("exr_layers", "layers.exr",
+               encode_exr_layers({{{"", {"R", "G", "B"}, picture(5, 4)},
+                                   {"stderr", {"R", "G", "B"}, picture(5, 4)},
+                                   {"depth", {"Z"}, picture(5, 4, 1)}},
+                                  7}));
+}
+
+// Of the size and the fingerprint that fuzz_checkpoint.cpp asks for, and of others.
+void add_checkpoints(const SeedFolder& seeds) {
+  PictureState state = make_picture_state({3, 2});
+  seeds.add_to("checkpoint", "empty.state", encode_checkpoint(state, 0x0123456789abcdef));
+  std::fill(state.count.begin(), state.count.end(), 16u);
+  std::fill(state.radiance_sum.begin(), state.radiance_sum.end(), 8.0);
+  seeds.add_to("checkpoint", "begun.state", encode_checkpoint(state, 0x0123456789abcdef));
+  seeds.add_to("checkpoint", "other.state", encode_checkpoint(state, 1));
+  seeds.add_to("checkpoint", "small.state", encode_checkpoint(make_picture_state({1, 1}), 1));
 }
 
 void add_png_form(const SeedFolder& seeds, const std::string& name, PngForm form) {
@@ -203,5 +223,6 @@ int main(int count, char** arguments) {
   welkin::add_merl(seeds);
   welkin::add_scenes(seeds);
   welkin::add_bc6h(seeds);
+  welkin::add_checkpoints(seeds);
   return 0;
 }
