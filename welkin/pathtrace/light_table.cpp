@@ -41,6 +41,18 @@ double mean_emission(const Scene& scene, const Mesh& mesh, std::size_t triangle)
   return sum / count + 0.05 * plain;
 }
 
+/// Area and normal, in double: squares of the cross product of edges of 1e-10 metres, or of 1e10, are beyond floats.
+void set_plane(TriangleLight& light, bool mirrored) {
+  const Vec3f a = light.edge_u, b = light.edge_v;
+  const double x = double{a.y} * b.z - double{a.z} * b.y, y = double{a.z} * b.x - double{a.x} * b.z,
+               z = double{a.x} * b.y - double{a.y} * b.x;
+  const double doubled = std::sqrt(x * x + y * y + z * z), scale = (mirrored ? -1 : 1) / doubled;
+  light.area = static_cast<float>(doubled / 2);
+  if (!(light.area > 0)) return;
+  light.normal = {static_cast<float>(scale * x), static_cast<float>(scale * y),
+                  static_cast<float>(scale * z)};
+}
+
 TriangleLight triangle_light(const PlacedMesh& placed, std::uint32_t object, std::uint32_t triangle) {
   TriangleLight light;
   const auto& corners = placed.mesh->triangles[triangle];
@@ -54,10 +66,7 @@ TriangleLight triangle_light(const PlacedMesh& placed, std::uint32_t object, std
   light.corner = p[0];
   light.edge_u = p[1] - p[0];
   light.edge_v = p[2] - p[0];
-  const Vec3f across = cross(light.edge_u, light.edge_v);
-  const float doubled = length(across);
-  light.area = doubled / 2;
-  if (doubled > 0) light.normal = ((placed.mirrored ? -1.0f : 1.0f) / doubled) * across;
+  set_plane(light, placed.mirrored);
   light.offset = (64 * 0x1p-24f + 2 * placed.transform_error) * largest;
   light.material = placed.mesh->material;
   light.object = object;

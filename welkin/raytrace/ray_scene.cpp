@@ -313,6 +313,13 @@ Hit hit_of(float distance, unsigned geometry, unsigned instance, unsigned primit
   return hit;
 }
 
+/// Embree wants finite rays whose coordinates are below 2^60; with its assertions on, as distributions build it, any other
+/// ends the program. They come of arithmetic beyond the range of floats, and meet nothing.
+bool is_traceable(const Ray& ray) {
+  const auto size = [](Vec3f v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+  return size(ray.origin) + size(ray.direction) < 0x1p60f && ray.far >= 0;  // false for NaN
+}
+
 RTCRay single(const Ray& ray) {
   return {ray.origin.x,
           ray.origin.y,
@@ -333,7 +340,7 @@ template <class Packet>
 void fill(std::span<const Ray> rays, Packet& packet, int* valid, std::size_t lanes) {
   for (std::size_t i = 0; i < lanes; ++i) {
     const Ray& ray = rays[std::min(i, rays.size() - 1)];
-    valid[i] = i < rays.size() ? -1 : 0;
+    valid[i] = i < rays.size() && is_traceable(ray) ? -1 : 0;
     packet.org_x[i] = ray.origin.x;
     packet.org_y[i] = ray.origin.y;
     packet.org_z[i] = ray.origin.z;
@@ -383,6 +390,7 @@ std::uint32_t occluded_of(std::span<const Ray> rays, Trace trace) {
 }  // namespace
 
 std::optional<Hit> RayScene::closest(const Ray& ray) const {
+  if (!is_traceable(ray)) return std::nullopt;
   RTCRayHit query;
   query.ray = single(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -396,6 +404,7 @@ std::optional<Hit> RayScene::closest(const Ray& ray) const {
 }
 
 bool RayScene::occluded(const Ray& ray) const {
+  if (!is_traceable(ray)) return false;
   RTCRay query = single(ray);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

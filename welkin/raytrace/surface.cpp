@@ -43,6 +43,28 @@ float error_of(const PlacedMesh& placed, const Corners& c, Vec3f a, Vec3f b, flo
   return rounding * (16 * largest + 8 * tilt) + placed.transform_error * (largest + placed.origin_size);
 }
 
+/// The plane of a triangle with edges a, b: |a x b| (not 0, for what divides by it), and its unit normal.
+struct Facet {
+  float doubled_area;
+  Vec3f normal;
+};
+/// The squares of |a x b| leave the range of floats where edges are below 1e-9 or above 1e9 metres: those are brought to a
+/// length of about 1 first. What is too small even so, and was hardly hit, faces the ray.
+Facet facet_of(Vec3f a, Vec3f b, Vec3f ray_direction) {
+  constexpr float least_area = 1e-37f;
+  const Vec3f across = cross(a, b);
+  const float squared = dot(across, across);
+  if (squared > 1e-34f && squared < 1e37f) {
+    const float doubled = std::sqrt(squared);
+    return {doubled, (1 / doubled) * across};
+  }
+  const float size = std::max(std::max(size_of(a), size_of(b)), 1e-30f);
+  const Vec3f scaled = cross((1 / size) * a, (1 / size) * b);
+  const float doubled = length(scaled);
+  if (!(doubled > 1e-17f)) return {least_area, -ray_direction};
+  return {std::max(size * size * doubled, least_area), (1 / doubled) * scaled};
+}
+
 struct Weights {
   float w, u, v;
 };
@@ -110,15 +132,15 @@ Surface on_mesh(const PlacedMesh& placed, const Hit& hit, const Ray& ray) {
   const Mesh& mesh = *placed.mesh;
   const auto& triangle = mesh.triangles[hit.triangle];
   const Corners c = corners_of(placed, triangle);
-  const Vec3f a = c.p[1] - c.p[0], b = c.p[2] - c.p[0], across = cross(a, b);
-  const float doubled_area = std::max(length(across), 1e-37f);
+  const Vec3f a = c.p[1] - c.p[0], b = c.p[2] - c.p[0];
+  const auto [doubled_area, normal] = facet_of(a, b, ray.direction);
   Surface surface;
   surface.position_error = error_of(placed, c, a, b, doubled_area);
   const Vec3f third = b - a;
   const float longest = std::sqrt(std::max(std::max(dot(a, a), dot(b, b)), dot(third, third)));
   const Weights by = inside_weights(hit, surface.position_error, doubled_area, longest);
   surface.position = by.w * c.p[0] + by.u * c.p[1] + by.v * c.p[2];
-  surface.geometric_normal = ((placed.mirrored ? -1.0f : 1.0f) / doubled_area) * across;
+  surface.geometric_normal = placed.mirrored ? -normal : normal;
   surface.material = mesh.material;
   surface.front = dot(ray.direction, surface.geometric_normal) < 0;
   for (int i = 0; i < 2; ++i) {
