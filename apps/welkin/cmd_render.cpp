@@ -73,7 +73,7 @@ PictureState first_state(const RenderCommand& command, const RenderJob& job) {
     return make_picture_state(job.options.size);
   }
   if (!command.resume) {
-    fmt::print(stderr, "welkin: warning: {} is ignored; --resume would go on with it\n", name);
+    fmt::print(stderr, "welkin: warning: {} is replaced; --resume would go on with it\n", name);
     return make_picture_state(job.options.size);
   }
   return decode_checkpoint(read_file(name), name, job.options.size, job.fingerprint);
@@ -159,7 +159,10 @@ void add_render_command(CLI::App& app) {
       "Examples:\n  welkin render --scene spheres --env park.hdr --spp 256 -o spheres.exr\n"
       "  welkin render room.glb --env none --error 0.02 --watch 5 -o room.exr\n"
       "  welkin render --scene spheres --env park.hdr --sampling compare -o strategies.exr");
-  sub->callback([command] { run(*command); });
+  sub->callback([sub, command] {
+    check_contradictions(*sub, *command);
+    run(*command);
+  });
 }
 
 }  // namespace welkin

@@ -23,10 +23,13 @@ std::string state_name(const std::string& exr) { return exr + ".state"; }
 void check_render_output(const RenderCommand& command) {
   if (extension_of(command.output) != ".exr")
     throw CLI::ValidationError("--output", "is an OpenEXR file; give it a name that ends in .exr");
-  for (const std::string& input : {command.file, command.environment}) check_output(command.output, input);
+  for (const std::string& input : {command.file, command.environment})
+    for (const std::string& output :
+         {command.output, picture_name(command.output), state_name(command.output)})
+      check_output(output, input);
   const std::filesystem::path folder = std::filesystem::absolute(command.output).parent_path();
-  if (std::filesystem::is_directory(command.output))
-    throw Error(command.output, "cannot write: Is a directory");
+  for (const std::string& output : {command.output, picture_name(command.output), state_name(command.output)})
+    if (std::filesystem::is_directory(output)) throw Error(output, "cannot write: Is a directory");
   if (::access(folder.c_str(), W_OK) != 0)
     throw Error(command.output, "cannot be written: the folder " + folder.string() + " is read-only");
   tone_options(command);

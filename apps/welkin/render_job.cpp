@@ -11,7 +11,6 @@
 #include <welkin/pathtrace/fingerprint.h>
 #include <welkin/scene/built_in.h>
 #include <welkin/scene/read_scene.h>
-#include <welkin/scene/read_scene.h>
 
 namespace welkin {
 namespace {
@@ -171,6 +170,9 @@ RenderJob make_render_job(const RenderCommand& command) {
   if (name == "none") {
     if (job.options.integrator.integrator == Integrator::image_based)
       throw Error("--integrator ibl shades by an environment: give one with --env");
+    if (!has_light(job.scene) && job.options.integrator.integrator != Integrator::ambient_occlusion)
+      job.warnings.push_back(job.scene.source +
+                             ": has no light, and neither has --env none: the picture is black");
     job.fingerprint = picture_fingerprint(job.scene, job.camera, nullptr, job.options);
     return job;
   }

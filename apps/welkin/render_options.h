@@ -28,4 +28,7 @@ struct RenderCommand {
 
 void add_render_options(CLI::App& sub, RenderCommand& command);
 
+/// Throws CLI::ValidationError for options that were given and that the others make void.
+void check_contradictions(const CLI::App& sub, const RenderCommand& command);
+
 }  // namespace welkin

@@ -27,8 +27,10 @@ extern "C" void stop(int signal_number) {
 
 }  // namespace
 
-// What nohup, or a shell for its jobs in the background, set to be ignored stays ignored.
+// A file above the limit of its size is an error to report, as a full disk is, and no reason to die half-way. What nohup,
+// or a shell for its jobs in the background, set to be ignored stays ignored.
 void handle_stop_signals() {
+  std::signal(SIGXFSZ, SIG_IGN);
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction inherited {};
     ::sigaction(signal_number, nullptr, &inherited);

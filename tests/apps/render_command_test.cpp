@@ -217,6 +217,24 @@ TEST_F(BadRenderTest, Options) {
   refused({"scene.glb"}, "either");
 }
 
+TEST_F(BadRenderTest, OptionsWithoutEffect) {
+  const auto refused = [&](const Arguments& more, const std::string& named) {
+    expect_refused(with({"render", "--scene", "furnace", "-o", "f.exr"}, more), 2, named);
+  };
+  refused({"--spp", "8", "--min-spp", "64"}, "--min-spp");
+  refused({"--max-spp", "64"}, "--max-spp");
+  refused({"--error", "0.1", "--min-spp", "128", "--max-spp", "64"}, "--min-spp");
+  refused({"--ao-distance", "1"}, "--ao-distance");
+  refused({"--integrator", "direct", "--bounces", "1"}, "--bounces");
+  refused({"--integrator", "ibl", "--clamp", "1"}, "--clamp");
+  refused({"--integrator", "ao", "--sampling", "mis"}, "--sampling");
+  refused({"--sampling", "bsdf", "--heuristic", "power"}, "--heuristic");
+  refused({"--env", "none", "--env-rotate", "90"}, "--env-rotate");
+  refused({"--sampling", "compare", "--error", "0.1"}, "--error");
+  refused({"--sampling", "compare", "--resume"}, "--resume");
+  refused({"--sampling", "compare", "--integrator", "path"}, "--integrator");
+}
+
 TEST_F(BadRenderTest, ScenesAndFiles) {
   expect_refused({"render", "-o", "f.exr"}, 2, "either");
   expect_refused({"render", "--scene", "furnace"}, 2, "--output");
@@ -244,6 +262,28 @@ TEST_F(BadRenderTest, Outputs) {
                                std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
   refused("locked/f.exr", 1, "locked/f.exr");
   std::filesystem::permissions(at("locked"), std::filesystem::perms::owner_all);
+}
+
+// The picture and the state beside the output are written too: they replace neither an input nor a folder.
+TEST_F(BadRenderTest, WhatIsWrittenBesideTheOutput) {
+  run_well({"sky", "--kind", "constant", "--size", "16x8", "-o", "f.png"});
+  write_text(at("g.exr.state"), read_text(at("f.png")));
+  const Arguments job{"render", "--scene", "furnace", "--spp", "1", "--size", "8x6"};
+  expect_refused(with(job, {"--env", "f.png", "-o", "f.exr"}), 1, "f.png");
+  expect_refused(with(job, {"--env", "g.exr.state", "-o", "g.exr"}), 1, "g.exr.state");
+  std::filesystem::create_directory(at("h.png"));
+  expect_refused(with(job, {"-o", "h.exr"}), 1, "h.png");
+  std::filesystem::create_directory(at("i.exr.state"));
+  expect_refused(with(job, {"-o", "i.exr"}), 1, "i.exr.state");
+  EXPECT_TRUE(std::filesystem::exists(at("i.exr.state")));
+}
+
+TEST_F(BadRenderTest, NoLightAtAllIsSaid) {
+  const RunResult result =
+      run({"render", "--scene", "furnace", "--env", "none", "--spp", "1", "--size", "8x6", "-o", "f.exr"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("warning"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("no light"), std::string::npos) << result.err;
 }
 
 TEST_F(BadRenderTest, FullDisk) {

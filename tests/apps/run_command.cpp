@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -41,7 +40,6 @@ pid_t start(Launch& launch) {
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child > 0) return child;
-  std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{launch.file_limit, launch.file_limit};
   if (launch.file_limit > 0 && ::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
   // Without these capabilities root is refused by permissions as anyone is; for others there is nothing to drop.

@@ -110,6 +110,17 @@ bool has_holes(const Scene& scene, int material) {
   return scene.materials[material].alpha_mode != AlphaMode::opaque;
 }
 
+/// The largest row sum of the inverse's absolute values: how much larger coordinates can become on their way into the
+/// frame of an instance. Infinite where there is no inverse.
+float magnification(const Affine& a) {
+  if (!(std::abs(determinant(a)) > 1e-30f)) return INFINITY;
+  const Affine b = inverse(a);
+  const float rows[3] = {std::abs(b.x.x) + std::abs(b.y.x) + std::abs(b.z.x),
+                         std::abs(b.x.y) + std::abs(b.y.y) + std::abs(b.z.y),
+                         std::abs(b.x.z) + std::abs(b.y.z) + std::abs(b.z.z)};
+  return std::max({rows[0], rows[1], rows[2]});
+}
+
 /// Rounding of a ray's way into the frame of an instance: Embree inverts the matrix M in single precision and applies it
 /// to the origin; a relative error of some units of rounding in every factor comes back through M as at most that times
 /// | |M| |M^-1| | (componentwise absolute values, largest row sum) of the coordinates.
@@ -137,8 +148,9 @@ PlacedMesh placed_mesh(const Scene& scene, const Instance& instance, bool in_wor
       a.x == Vec3f{1, 0, 0} && a.y == Vec3f{0, 1, 0} && a.z == Vec3f{0, 0, 1} && a.origin == Vec3f{0, 0, 0};
   const float volume = determinant(a);
   placed.mirrored = volume < 0;
-  // What cannot be inverted has to be flattened (into nothing that is ever hit, or into a sheet).
-  placed.in_world = in_world || !(std::abs(volume) > 1e-30f);
+  // What cannot be inverted has to be flattened (into nothing that is ever hit, or into a sheet), and what shrinks by more
+  // than 2e5 is: in its frame the world would be too large for floats.
+  placed.in_world = in_world || !(magnification(a) < 2e5f);
   if (!placed.in_world) placed.transform_error = transform_error(a);
   placed.origin_size = std::max(std::max(std::abs(a.origin.x), std::abs(a.origin.y)), std::abs(a.origin.z));
   return placed;
@@ -153,6 +165,7 @@ struct RayScene::Tree {
   std::vector<Owned<RTCScene>> mesh_scenes;  ///< by mesh; null where no instance needs it
   std::vector<const Vec3f*> mesh_positions;  ///< of those scenes
   std::vector<PlacedMesh> placed;
+  float reach = 0x1p60f;         ///< rays that start beyond are not traced
   std::vector<CutOut> cut_outs;  ///< by mesh, then the spheres'
 
   explicit Tree(const Scene& of);
@@ -189,6 +202,7 @@ RayScene::Tree::Tree(const Scene& of) : scene(&of) {
     } else {
       if (mesh_scenes[instance.mesh] == nullptr) add_own_tree(instance.mesh);
       add_instance(i, mesh_scenes[instance.mesh].get(), instance.to_world);
+      reach = std::min(reach, 0x1p59f / std::max(magnification(instance.to_world), 1.0f));
       item.positions = mesh_positions[instance.mesh];
     }
     placed.push_back(item);
@@ -313,11 +327,12 @@ Hit hit_of(float distance, unsigned geometry, unsigned instance, unsigned primit
   return hit;
 }
 
-/// Embree wants finite rays whose coordinates are below 2^60; with its assertions on, as distributions build it, any other
-/// ends the program. They come of arithmetic beyond the range of floats, and meet nothing.
-bool is_traceable(const Ray& ray) {
+/// Embree wants finite rays whose coordinates are below 2^60, in the world and in the frames of instances (`reach` is what
+/// that leaves in the world). With its assertions on, as distributions build it, any other ends the program. They come of
+/// arithmetic beyond the range of floats, and meet nothing.
+bool is_traceable(const Ray& ray, float reach) {
   const auto size = [](Vec3f v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
-  return size(ray.origin) + size(ray.direction) < 0x1p60f && ray.far >= 0;  // false for NaN
+  return size(ray.origin) + size(ray.direction) < reach && ray.far >= 0;  // false for NaN
 }
 
 RTCRay single(const Ray& ray) {
@@ -337,10 +352,10 @@ RTCRay single(const Ray& ray) {
 
 /// Fills the first lanes of Embree's packet; the others are off.
 template <class Packet>
-void fill(std::span<const Ray> rays, Packet& packet, int* valid, std::size_t lanes) {
+void fill(std::span<const Ray> rays, float reach, Packet& packet, int* valid, std::size_t lanes) {
   for (std::size_t i = 0; i < lanes; ++i) {
     const Ray& ray = rays[std::min(i, rays.size() - 1)];
-    valid[i] = i < rays.size() && is_traceable(ray) ? -1 : 0;
+    valid[i] = i < rays.size() && is_traceable(ray, reach) ? -1 : 0;
     packet.org_x[i] = ray.origin.x;
     packet.org_y[i] = ray.origin.y;
     packet.org_z[i] = ray.origin.z;
@@ -357,10 +372,11 @@ void fill(std::span<const Ray> rays, Packet& packet, int* valid, std::size_t lan
 }
 
 template <class Packet, std::size_t lanes, class Trace>
-std::uint32_t closest_of(std::span<const Ray> rays, Hit* hits, std::size_t instances, Trace trace) {
+std::uint32_t closest_of(std::span<const Ray> rays, float reach, Hit* hits, std::size_t instances,
+                         Trace trace) {
   Packet packet;
   alignas(64) int valid[lanes];
-  fill(rays, packet.ray, valid, lanes);
+  fill(rays, reach, packet.ray, valid, lanes);
   for (std::size_t i = 0; i < lanes; ++i) {
     packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
@@ -377,10 +393,10 @@ std::uint32_t closest_of(std::span<const Ray> rays, Hit* hits, std::size_t insta
 }
 
 template <class Packet, std::size_t lanes, class Trace>
-std::uint32_t occluded_of(std::span<const Ray> rays, Trace trace) {
+std::uint32_t occluded_of(std::span<const Ray> rays, float reach, Trace trace) {
   Packet packet;
   alignas(64) int valid[lanes];
-  fill(rays, packet, valid, lanes);
+  fill(rays, reach, packet, valid, lanes);
   trace(valid, packet);
   std::uint32_t met = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) met |= (packet.tfar[i] < 0 ? 1u : 0u) << i;
@@ -390,7 +406,7 @@ std::uint32_t occluded_of(std::span<const Ray> rays, Trace trace) {
 }  // namespace
 
 std::optional<Hit> RayScene::closest(const Ray& ray) const {
-  if (!is_traceable(ray)) return std::nullopt;
+  if (!is_traceable(ray, tree_->reach)) return std::nullopt;
   RTCRayHit query;
   query.ray = single(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -404,7 +420,7 @@ std::optional<Hit> RayScene::closest(const Ray& ray) const {
 }
 
 bool RayScene::occluded(const Ray& ray) const {
-  if (!is_traceable(ray)) return false;
+  if (!is_traceable(ray, tree_->reach)) return false;
   RTCRay query = single(ray);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -425,13 +441,13 @@ std::uint32_t RayScene::closest(std::span<const Ray> rays, Hit* hits, RayKind ki
   RTCScene top = tree_->top.get();
   const std::size_t instances = tree_->placed.size();
   if (rays.size() <= 8) {
-    return closest_of<RTCRayHit8, 8>(rays, hits, instances, [&](const int* valid, RTCRayHit8& packet) {
-      rtcIntersect8(valid, top, &context, &packet);
-    });
+    return closest_of<RTCRayHit8, 8>(
+        rays, tree_->reach, hits, instances,
+        [&](const int* valid, RTCRayHit8& packet) { rtcIntersect8(valid, top, &context, &packet); });
   }
-  return closest_of<RTCRayHit16, 16>(rays, hits, instances, [&](const int* valid, RTCRayHit16& packet) {
-    rtcIntersect16(valid, top, &context, &packet);
-  });
+  return closest_of<RTCRayHit16, 16>(
+      rays, tree_->reach, hits, instances,
+      [&](const int* valid, RTCRayHit16& packet) { rtcIntersect16(valid, top, &context, &packet); });
 }
 
 std::uint32_t RayScene::occluded(std::span<const Ray> rays) const {
@@ -441,11 +457,13 @@ std::uint32_t RayScene::occluded(std::span<const Ray> rays) const {
   rtcInitIntersectContext(&context);
   RTCScene top = tree_->top.get();
   if (rays.size() <= 8) {
-    return occluded_of<RTCRay8, 8>(
-        rays, [&](const int* valid, RTCRay8& packet) { rtcOccluded8(valid, top, &context, &packet); });
+    return occluded_of<RTCRay8, 8>(rays, tree_->reach, [&](const int* valid, RTCRay8& packet) {
+      rtcOccluded8(valid, top, &context, &packet);
+    });
   }
-  return occluded_of<RTCRay16, 16>(
-      rays, [&](const int* valid, RTCRay16& packet) { rtcOccluded16(valid, top, &context, &packet); });
+  return occluded_of<RTCRay16, 16>(rays, tree_->reach, [&](const int* valid, RTCRay16& packet) {
+    rtcOccluded16(valid, top, &context, &packet);
+  });
 }
 
 }  // namespace welkin
