@@ -177,11 +177,11 @@ Image column_of_faces(const Cube& cube) {
   return image;
 }
 
-void write_difference(const CompareCommand& command, const LoadedImage& a, const LoadedImage& b) {
+OutputFile difference_file(const CompareCommand& command, const LoadedImage& a, const LoadedImage& b) {
   const auto picture = [](const LoadedImage& image) {
     return image.is_cube() ? column_of_faces(image.cube.levels.front()) : image.flat;
   };
-  write_file(command.difference_path, encode_png(difference_image(picture(a), picture(b))));
+  return {command.difference_path, encode_png(difference_image(picture(a), picture(b)))};
 }
 
 // Before any work: a name that says another format, and one that would overwrite what is compared.
@@ -194,16 +194,19 @@ void check_output_name(const CompareCommand& command, const std::string& option,
   for (const std::string& input : {command.a, command.b})
     if (std::filesystem::equivalent(path, input, none))
       throw Error(input, "is compared and would be overwritten; choose another name for " + option);
+  check_output(path, command.a);
 }
 
 void check(const CompareCommand& command) {
   check_output_name(command, "--diff", command.difference_path, ".png");
   check_output_name(command, "--flip-map", command.flip_path, ".png");
   check_output_name(command, "--report", command.report_path, ".html");
+  if (!command.flip_path.empty() && command.flip_path == command.difference_path)
+    throw CLI::ValidationError("--flip-map", "names the same file as --diff");
 }
 
 Extras compare_pictures(const CompareCommand& command, const LoadedImage& a, const LoadedImage& b,
-                        const ImageDifference& figures) {
+                        const ImageDifference& figures, std::vector<OutputFile>& files) {
   Extras extras;
   if (!command.z_test && !command.looks()) return extras;
   if (a.is_cube()) throw Error(command.a, "is a cube; --z-test, --flip and --report compare flat pictures");
@@ -219,11 +222,12 @@ Extras compare_pictures(const CompareCommand& command, const LoadedImage& a, con
                        extras.z};
   extras.perceptual = perceptual_difference(report.shown, command.pixels_per_degree);
   if (!command.flip_path.empty())
-    write_file(command.flip_path, encode_png(perceptual_map_image(extras.perceptual->map)));
+    files.push_back({command.flip_path, encode_png(perceptual_map_image(extras.perceptual->map))});
   if (!command.report_path.empty()) {
     report.perceptual = *extras.perceptual;
     report.difference = difference_image(a.flat, b.flat);
-    write_file(command.report_path, compare_report_html(report));
+    const std::string page = compare_report_html(report);
+    files.push_back({command.report_path, {page.begin(), page.end()}});
   }
   return extras;
 }
@@ -247,8 +251,10 @@ void run(const CompareCommand& command) {
   }
   check_comparable(command, a, b);
   const std::vector<Part> parts = compare_all(command, a, b);
-  if (!command.difference_path.empty()) write_difference(command, a, b);
-  const Extras extras = compare_pictures(command, a, b, parts.front().difference);
+  std::vector<OutputFile> files;
+  if (!command.difference_path.empty()) files.push_back(difference_file(command, a, b));
+  const Extras extras = compare_pictures(command, a, b, parts.front().difference, files);
+  write_files(files);
   if (command.json) return print_json(command, parts, a.is_cube(), extras);
   print_table(parts, a.is_cube());
   print_extras(command, extras);

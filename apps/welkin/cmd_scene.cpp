@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "commands.h"
+#include "flat_file.h"
 
 #include <welkin/image/output_file.h>
 #include <welkin/scene/built_in.h>
@@ -79,6 +80,9 @@ void list_built_in() {
 
 void run(const SceneCommand& command) {
   if (command.input.empty()) return list_built_in();
+  if (!command.output.empty() && extension_of(command.output) != ".glb")
+    throw CLI::ValidationError("--output", "needs a name that ends in .glb");
+  check_output(command.output, command.input);
   const Scene scene = open_scene(command.input);
   for (const std::string& warning : scene.warnings)
     fmt::print(stderr, "welkin: {}: warning: {}\n", scene.source, warning);

@@ -278,6 +278,13 @@ TEST_F(BadRenderTest, WhatIsWrittenBesideTheOutput) {
   EXPECT_TRUE(std::filesystem::exists(at("i.exr.state")));
 }
 
+TEST_F(BadRenderTest, SceneOutputs) {
+  run_well({"scene", "plane", "-o", "plane.glb"});
+  expect_refused({"scene", "plane.glb", "-o", "plane.glb"}, 1, "plane.glb");
+  expect_refused({"scene", "plane", "-o", "plane.gltf"}, 2, ".glb");
+  expect_refused({"scene", "plane", "-o", "no/plane.glb"}, 1, "no/plane.glb");
+}
+
 TEST_F(BadRenderTest, NoLightAtAllIsSaid) {
   const RunResult result =
       run({"render", "--scene", "furnace", "--env", "none", "--spp", "1", "--size", "8x6", "-o", "f.exr"});
@@ -302,6 +309,11 @@ TEST_F(BadRenderTest, Compare) {
   expect_refused({"compare", "flat.exr", "flat.exr", "--flip", "--pixels-per-degree", "nan"}, 2,
                  "--pixels-per-degree");
   expect_refused({"compare", "flat.exr", "flat.exr", "--report", "no/page.html"}, 1, "no/page.html");
+  expect_refused({"compare", "flat.exr", "flat.exr", "--diff", "d.png", "--report", "no/page.html"}, 1,
+                 "no/page.html");
+  expect_refused({"compare", "flat.exr", "flat.exr", "--diff", "d.png", "--z-test"}, 1, "stderr");
+  expect_refused({"compare", "flat.exr", "flat.exr", "--diff", "d.png", "--flip-map", "d.png"}, 2,
+                 "--flip-map");
 }
 
 }  // namespace

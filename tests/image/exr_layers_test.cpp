@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -88,6 +90,20 @@ TEST(ExrLayers, DamagedAnywhere) {
     EXPECT_TRUE(message == "(accepted)" || message.starts_with("p.exr: ")) << at << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << at << message;
   }
+}
+
+// A box2i attribute is its name, its type, the size 16 and then min.x, min.y, max.x, max.y. The library would take memory
+// for 16 lines of any width as soon as it opens the part.
+TEST(ExrLayers, HugeSizesAreRefusedBeforeMemoryIsTaken) {
+  auto bytes = encode_exr_layers(picture(8, 4));
+  const std::string key = std::string("dataWindow\0box2i\0\x10\0\0\0", 21);
+  const auto at = std::search(bytes.begin(), bytes.end(), key.begin(), key.end());
+  ASSERT_NE(at, bytes.end());
+  const int box[4] = {0, 0, 499'999'999, 3};
+  std::memcpy(&*(at + static_cast<std::ptrdiff_t>(key.size())), box, sizeof box);
+  const std::string message =
+      refusal(bytes, [](std::span<const std::uint8_t> b) { decode_exr_layers(b, "p.exr"); });
+  EXPECT_NE(message.find("the header gives a size of 500000000 x 4"), std::string::npos) << message;
 }
 
 TEST(ExrLayers, SubsampledChannelsAreRefused) {

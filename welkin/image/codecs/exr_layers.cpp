@@ -148,9 +148,11 @@ ExrLayers decode(std::span<const std::uint8_t> bytes, std::string_view name) {
   const std::vector<std::uint8_t> headers = checked_exr_headers(bytes, name);
   Input stream(bytes, headers);
   Imf::MultiPartInputFile file(stream, 0);
-  Imf::InputPart part(file, first_flat_part(file, name));
+  const int index = first_flat_part(file, name);
+  check_header(file.header(index), name,
+               bytes.size());  // before an InputPart takes memory for its lines or tiles
+  Imf::InputPart part(file, index);
   const Imf::Header& header = part.header();
-  check_header(header, name, bytes.size());
   ExrLayers result;
   result.layers = layers_of(header);
   if (const auto* freedom = header.findTypedAttribute<Imf::DoubleAttribute>(freedom_attribute))
