@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <welkin/envmap/importance/environment_sampler.h>
+#include <welkin/envmap/importance/inverse_table.h>
 #include <welkin/error.h>
 
 #include "importance_cases.h"
@@ -60,6 +61,43 @@ std::vector<double> box_shares(const Image& map, EnvironmentDensity density) {
     }
   for (double& share : shares) share /= sum;
   return shares;
+}
+
+// The inverse table finds its texels by bisection of the whole CDFs, to the bit.
+TEST(InverseTable, ChoosesWhatBisectionFinds) {
+  for (const NamedMap& one : maps()) {
+    const Image& map = one.map;
+    const InverseTable table({map, {0.2126f, 0.7152f, 0.0722f}, std::vector<double>(map.height, 1.0)});
+    UnitNumbers numbers(9);
+    for (int i = 0; i < 5000; ++i) {
+      const Vec2f u = numbers.two();
+      const TexelChoice choice = table.choose(u);
+      const std::size_t y = last_not_above(table.row_cdf().data(), map.height, u.y);
+      const float* cdf = table.column_cdfs().data() + y * (map.width + 1);
+      ASSERT_EQ(choice.y, static_cast<int>(y)) << one.name;
+      ASSERT_EQ(choice.x, static_cast<int>(last_not_above(cdf, map.width, u.x))) << one.name;
+    }
+  }
+}
+
+// Many at once and in two steps: the same bits.
+TEST(EnvironmentSampler, BatchesGiveTheSame) {
+  for (const EnvironmentSamplerOptions& options : all_options()) {
+    const EnvironmentSampler sampler(sun_map(64, 32, 100), options);
+    UnitNumbers numbers(10);
+    std::vector<Vec2f> u(37);
+    for (Vec2f& two : u) two = numbers.two();
+    std::vector<EnvironmentSample> samples(u.size());
+    sampler.sample(u, samples);
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const EnvironmentSample alone = sampler.sample(u[i]), there = sampler.at(alone.direction);
+      const EnvironmentSample placed = sampler.at(alone.direction, sampler.place(alone.direction));
+      ASSERT_TRUE(samples[i].direction == alone.direction && samples[i].pdf == alone.pdf) << name_of(options);
+      ASSERT_EQ(samples[i].radiance.g, alone.radiance.g) << name_of(options);
+      ASSERT_TRUE(placed.direction == there.direction && placed.pdf == there.pdf) << name_of(options);
+      ASSERT_EQ(placed.radiance.g, there.radiance.g) << name_of(options);
+    }
+  }
 }
 
 constexpr int chi_samples = 300'000;  // bench_sampling repeats this with 1e7 and more

@@ -44,6 +44,35 @@ TEST(DiscreteDistribution, ProbabilityIsTheExactShareOfTheNumbers) {
   }
 }
 
+// Bisection of all entries is the yardstick: the same index for every end of an interval, its neighbours, and others.
+TEST(Cutpoints, FindWhatBisectionFinds) {
+  std::mt19937 random(8);
+  for (const std::size_t count : {1u, 2u, 7u, 64u, 1000u}) {
+    for (const double lit : {1.0, 0.2, 0.0}) {
+      std::vector<double> weights(count);
+      for (double& w : weights) w = random() < lit * 0x1p32 ? std::pow(random() * 0x1p-32, 9) : 0.0;
+      std::vector<float> cdf(count + 1);
+      quantised_cdf(weights.data(), count, cdf.data());
+      for (const int intervals : {1, 8, 256}) {
+        std::vector<std::uint16_t> cutpoints(intervals + 2);
+        make_cutpoints(cdf.data(), count, intervals, cutpoints.data());
+        const auto check = [&](float value) {
+          const int k = static_cast<int>(value * static_cast<float>(intervals));
+          ASSERT_EQ(last_not_above(cdf.data(), cutpoints.data() + k, value),
+                    last_not_above(cdf.data(), count, value))
+              << count << ' ' << lit << ' ' << intervals << ' ' << value;
+        };
+        for (int i = 0; i < 2000; ++i) check(static_cast<float>(random() >> 8) * 0x1p-24f);
+        for (int k = 0; k < 256; ++k) {
+          check(static_cast<float>(k) / 256);
+          check(std::nextafter(static_cast<float>(k + 1) / 256, 0.0f));
+        }
+        for (const float entry : cdf) check(entry);  // 1 itself among them
+      }
+    }
+  }
+}
+
 TEST(DiscreteDistribution, OfNothingPicksNothing) {
   EXPECT_TRUE(DiscreteDistribution().empty());
   EXPECT_EQ(DiscreteDistribution().choose(0.5f).probability, 0);

@@ -1,6 +1,7 @@
 #include <welkin/pathtrace/light_table.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <welkin/raytrace/texture_lookup.h>
@@ -115,6 +116,12 @@ bool is_inside(Vec3f from, const SphereLight& light) {
   return dot(way, way) <= reach * reach;
 }
 
+void set_sky(const EnvironmentSample& sky, LightSample& sample) {
+  sample.direction = sky.direction;
+  sample.radiance = sky.radiance;
+  sample.pdf = sky.pdf;
+}
+
 }  // namespace
 
 LightTable::LightTable(const RayScene& rays, const EnvironmentSampler* environment)
@@ -184,27 +191,53 @@ void LightTable::set_shares(double environment_luminance) {
   environment_share_ = choice_.probability(scene_->lights.size());
 }
 
-LightSample LightTable::sample(Vec3f from, float select, Vec2f u) const {
-  const DiscreteDistribution::Choice choice = choice_.choose(select);
+LightSample LightTable::from_chosen(const LightQuery& query,
+                                    const DiscreteDistribution::Choice& choice) const {
   const std::size_t light = choice.index;
   LightSample sample;
   if (light < scene_->lights.size()) {
-    sample = from_punctual(from, scene_->lights[light]);
+    sample = from_punctual(query.from, scene_->lights[light]);
     sample.pdf = choice.probability;
     return sample;
   }
   if (light < first_sphere_) {
-    const EnvironmentSample sky = environment_->sample(u);
-    sample.direction = sky.direction;
-    sample.radiance = sky.radiance;
-    sample.pdf = sky.pdf;
+    set_sky(environment_->sample(query.u), sample);
   } else if (light < first_triangle()) {
-    sample = from_sphere(from, spheres_[light - first_sphere_], u);
+    sample = from_sphere(query.from, spheres_[light - first_sphere_], query.u);
   } else {
-    sample = from_triangle(from, triangles_[light - first_triangle()], u);
+    sample = from_triangle(query.from, triangles_[light - first_triangle()], query.u);
   }
   sample.pdf *= choice.probability;
   return sample;
+}
+
+LightSample LightTable::sample(Vec3f from, float select, Vec2f u) const {
+  return from_chosen({from, select, u}, choice_.choose(select));
+}
+
+void LightTable::sample(std::span<const LightQuery> queries, LightSample* samples) const {
+  constexpr std::size_t most = 16;
+  assert(queries.size() <= most);
+  Vec2f sky_u[most];
+  EnvironmentSample sky[most];
+  LightSample* of_sky[most];
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const DiscreteDistribution::Choice choice = choice_.choose(queries[i].select);
+    if (choice.index != scene_->lights.size()) {
+      samples[i] = from_chosen(queries[i], choice);
+      continue;
+    }
+    sky_u[count] = queries[i].u;
+    of_sky[count++] = &samples[i];
+  }
+  if (count == 0) return;
+  environment_->sample({sky_u, count}, {sky, count});
+  for (std::size_t i = 0; i < count; ++i) {
+    *of_sky[i] = LightSample();
+    set_sky(sky[i], *of_sky[i]);
+    of_sky[i]->pdf *= environment_share_;
+  }
 }
 
 LightSample LightTable::sample_punctual(Vec3f from, float select) const {

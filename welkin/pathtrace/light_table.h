@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <welkin/envmap/importance/environment_sampler.h>
@@ -21,6 +22,13 @@ struct LightSample {
       0;  ///< per steradian, with the choice of the light in it; for is_delta the choice's probability alone
   bool is_delta = false;
   Vec3f target;  ///< where the light's surface is, moved off it; unused where distance is 1e30f
+};
+
+/// What a light is picked for: a point, a number in [0, 1) that picks the light and two that pick a point of it.
+struct LightQuery {
+  Vec3f from;
+  float select = 0;
+  Vec2f u;
 };
 
 struct TriangleLight {
@@ -52,6 +60,8 @@ class LightTable {
 
   /// A light for select in [0, 1) and a point of it for u in [0, 1)^2. Not for an empty table.
   LightSample sample(Vec3f from, float select, Vec2f u) const;
+  /// The same for at most 16 queries, with the environment's tables read for all together.
+  void sample(std::span<const LightQuery> queries, LightSample* samples) const;
   /// The same among punctual lights alone; needs has_punctual_lights().
   LightSample sample_punctual(Vec3f from, float select) const;
 
@@ -65,6 +75,7 @@ class LightTable {
 
  private:
   std::size_t first_triangle() const { return first_sphere_ + spheres_.size(); }
+  LightSample from_chosen(const LightQuery& query, const DiscreteDistribution::Choice& choice) const;
   LightSample from_punctual(Vec3f from, const PunctualLight& light) const;
   LightSample from_sphere(Vec3f from, const SphereLight& light, Vec2f u) const;
   LightSample from_triangle(Vec3f from, const TriangleLight& light, Vec2f u) const;

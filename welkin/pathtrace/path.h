@@ -78,8 +78,7 @@ class PathTracer {
     ShadingPoint point;
     Path* path = nullptr;
     Vec3f ray_direction;
-    float lobe = 0;     ///< which of the BRDF's lobes goes on
-    LightSample light;  ///< the light that was picked for it
+    float lobe = 0;  ///< which of the BRDF's lobes goes on
   };
 
   /// What 16 samples need on their way: too large to be made anew each time, so every thread keeps one.
@@ -90,6 +89,9 @@ class PathTracer {
     Ray shadow_rays[2 * RayScene::batch_size];  ///< two a surface with product sampling
     Vertex vertices[RayScene::batch_size];
     Candidate candidates[2 * RayScene::batch_size];
+    EnvironmentPlace places[RayScene::batch_size];  ///< of the rays that meet nothing
+    LightQuery queries[RayScene::batch_size];       ///< of the vertices
+    LightSample lights[RayScene::batch_size];       ///< picked for the vertices
   };
   static Workspace& workspace() {
     thread_local Workspace space;
@@ -102,11 +104,9 @@ class PathTracer {
     const RayKind kind = bounce == 0 ? RayKind::side_by_side : RayKind::scattered;
     const std::uint32_t met = rays_.closest(std::span<const Ray>(space_.rays_out, count_), space_.hits, kind);
     prefetch_surfaces(tables_.rays, met, space_.hits);
-    for (std::size_t i = 0; i < count_; ++i) {
-      if ((met >> i & 1) == 0) add_environment(space_.paths[i], space_.rays_out[i].direction, bounce);
-    }
+    add_environment(met, bounce);
     const std::size_t count = meet_surfaces(met, bounce);
-    for (std::size_t i = 0; i < count; ++i) pick_light(space_.vertices[i]);
+    pick_lights(count);
     Path* reflected[RayScene::batch_size];
     std::size_t alive = 0;
     shadows_ = 0;
@@ -114,7 +114,7 @@ class PathTracer {
       Vertex& at = space_.vertices[i];
       prepare_shading(tables_.scene, tables_.materials, at.ray_direction, at.point);
       if (bounce == 0) describe(at.point, *at.path->sample);
-      const Rgb light = direct_light(at.point, at.light, space_.shadow_rays[shadows_]);
+      const Rgb light = direct_light(at.point, space_.lights[i], space_.shadow_rays[shadows_]);
       if (!is_black(light)) space_.candidates[shadows_++] = {at.path->throughput * light, at.path};
       if (go_on(*at.path, at.point, bounce, at.lobe, space_.rays_out[alive])) reflected[alive++] = at.path;
     }
@@ -152,15 +152,22 @@ class PathTracer {
     return count;
   }
 
-  void pick_light(Vertex& at) const {
-    const LightTable& lights = *lights_;
-    const Vec2f choice = at.path->sample->stream.next_2d(), u = at.path->sample->stream.next_2d();
-    at.lobe = choice.y;
-    const Vec3f from = at.point.surface.position;
-    if (options_.sampling != LightSampling::bsdf) {
-      at.light = lights.empty() ? LightSample() : lights.sample(from, choice.x, u);
-    } else {  // what has no size, no ray finds
-      at.light = lights.has_punctual_lights() ? lights.sample_punctual(from, choice.x) : LightSample();
+  void pick_lights(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      Vertex& at = space_.vertices[i];
+      SampleStream& stream = at.path->sample->stream;
+      const Vec2f choice = stream.next_2d(), u = stream.next_2d();
+      at.lobe = choice.y;
+      space_.queries[i] = {at.point.surface.position, choice.x, u};
+    }
+    if (options_.sampling != LightSampling::bsdf && !lights_->empty()) {
+      lights_->sample(std::span<const LightQuery>(space_.queries, count), space_.lights);
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {  // what has no size, no ray finds
+      const LightQuery& query = space_.queries[i];
+      space_.lights[i] =
+          lights_->has_punctual_lights() ? lights_->sample_punctual(query.from, query.select) : LightSample();
     }
   }
 
@@ -192,20 +199,25 @@ class PathTracer {
     }
   }
 
-  void add_environment(const Path& path, Vec3f direction, int bounce) const {
+  /// For the paths that have met nothing.
+  void add_environment(std::uint32_t met, int bounce) {
     if (tables_.environment == nullptr || (bounce == 0 && !options_.show_environment)) return;
-    if (!(path.pdf < delta_pdf)) {  // weight 1, no need for the density
-      add(path.throughput * tables_.environment->radiance(direction), bounce - 1, *path.sample);
-      return;
+    const EnvironmentSampler& environment = *tables_.environment;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if ((met >> i & 1) == 0) space_.places[i] = environment.place(space_.rays_out[i].direction);
     }
-    if (product_ != nullptr) {  // densities of one sample and of several candidates: the balance heuristic
-      const float weight = path.pdf / (path.pdf + path.product_density);
-      add(weight * path.throughput * tables_.environment->radiance(direction), bounce - 1, *path.sample);
-      return;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if ((met >> i & 1) != 0) continue;
+      const Path& path = space_.paths[i];
+      const EnvironmentSample sky = environment.at(space_.rays_out[i].direction, space_.places[i]);
+      add(weight_of_path_to_sky(path, sky.pdf) * path.throughput * sky.radiance, bounce - 1, *path.sample);
     }
-    const EnvironmentSample sky = tables_.environment->at(direction);
-    const float weight = weight_of_path(path, tables_.lights.pdf_of_environment(sky.pdf));
-    add(weight * path.throughput * sky.radiance, bounce - 1, *path.sample);
+  }
+
+  float weight_of_path_to_sky(const Path& path, float sky_pdf) const {
+    // Densities of one sample and of several candidates: the balance heuristic.
+    if (product_ != nullptr && path.pdf < delta_pdf) return path.pdf / (path.pdf + path.product_density);
+    return weight_of_path(path, tables_.lights.pdf_of_environment(sky_pdf));
   }
 
   void add_emission(const Path& path, int bounce, const Hit& hit, const ShadingPoint& point) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <welkin/parallel/prefetch.h>
 #include <welkin/raytrace/texture_lookup.h>
 
 namespace welkin {
@@ -182,12 +183,11 @@ void prefetch_surfaces(const RayScene& scene, std::uint32_t met, const Hit* hits
       if ((left & 1) != 0 && hits[i].object < placed.size()) visit(placed[hits[i].object], hits[i].triangle);
     }
   };
-  for_meshes(
-      [](const PlacedMesh& p, std::uint32_t triangle) { __builtin_prefetch(&p.mesh->triangles[triangle]); });
+  for_meshes([](const PlacedMesh& p, std::uint32_t triangle) { prefetch(&p.mesh->triangles[triangle]); });
   for_meshes([](const PlacedMesh& p, std::uint32_t triangle) {
     for (const std::uint32_t corner : p.mesh->triangles[triangle]) {
-      __builtin_prefetch(p.positions + corner);
-      if (!p.mesh->normals.empty()) __builtin_prefetch(&p.mesh->normals[corner]);
+      prefetch(p.positions + corner);
+      if (!p.mesh->normals.empty()) prefetch(&p.mesh->normals[corner]);
     }
   });
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,25 @@ inline std::size_t last_not_above(const float* entries, std::size_t count, float
     count -= half;
   }
   return static_cast<std::size_t>(base - entries);
+}
+
+/// Where to look in ascending entries from 0 to 1 for numbers in [0, 1) (cutpoints: Chen & Asau 1974): for each of
+/// `intervals` equal intervals, a power of two, what last_not_above gives for its lower end, and count - 1 twice at last.
+/// Writes intervals + 2 indices. Needs count <= 65,536.
+inline void make_cutpoints(const float* entries, std::size_t count, int intervals, std::uint16_t* cutpoints) {
+  std::size_t index = 0;
+  for (int k = 0; k < intervals; ++k) {
+    const float lower = static_cast<float>(k) / static_cast<float>(intervals);
+    while (index + 1 < count && entries[index + 1] <= lower) ++index;
+    cutpoints[k] = static_cast<std::uint16_t>(index);
+  }
+  cutpoints[intervals] = cutpoints[intervals + 1] = static_cast<std::uint16_t>(count - 1);
+}
+
+/// last_not_above for value in [0, 1], with the two cutpoints of the value's interval: the index lies between theirs.
+inline std::size_t last_not_above(const float* entries, const std::uint16_t* cutpoints, float value) {
+  const std::size_t first = cutpoints[0];
+  return first + last_not_above(entries + first, cutpoints[1] - first + 1, value);
 }
 
 /// Picks an index with a chance proportional to its weight, by inverting the CDF: ascending numbers pick ascending

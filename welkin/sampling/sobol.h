@@ -79,8 +79,6 @@ class SampleStream {
     const std::uint32_t shuffled = reversed_bits(scrambled_reversed(reversed_index_, seed));
     return unit_float(reversed_bits(scrambled_reversed(shuffled, mix_bits32(seed ^ 0x55555555u))));
   }
-  /// As if `calls` of next_1d or next_2d had been made: keeps what follows in step where some numbers are not needed.
-  void skip(std::uint32_t calls) { dimension_ += calls; }
 
  private:
   std::uint32_t reversed_index_ = 0, seed_ = 0, dimension_ = 0;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -13,6 +15,7 @@
 #include <welkin/error.h>
 #include <welkin/geometry/fast_angles.h>
 #include <welkin/parallel/parallel_for.h>
+#include <welkin/parallel/prefetch.h>
 #include <welkin/sphere/equirect.h>
 
 // Positions. A map position is s = u, t = v of docs/conventions.md; within a texel of the box model samples are uniform
@@ -32,10 +35,7 @@ namespace {
 constexpr float darkest = 1e-25f;
 constexpr float smallest_sine = 1e-9f;
 
-struct MapPosition {
-  float s = 0, t = 0;
-  float sine = 0;  // of theta
-};
+using MapPosition = EnvironmentPlace;
 
 struct RowShape {
   float h = 0, h_step = 0;  // at the row's upper edge, and to its lower edge
@@ -93,6 +93,17 @@ struct EnvironmentSampler::Tables {
       case EnvironmentTable::hierarchical: return quad.probability(x, y);
       default: return inverse.probability(x, y);
     }
+  }
+  void choose(std::span<const Vec2f> u, TexelChoice* choices) const {
+    if (options.table == EnvironmentTable::inverse) return inverse.choose(u, choices);
+    for (std::size_t i = 0; i < u.size(); ++i) choices[i] = choose(u[i]);
+  }
+  void prefetch_texel(int x, int y) const {
+    prefetch(map.at(x, y));
+    if (options.table == EnvironmentTable::inverse) inverse.prefetch_probability(x, y);
+  }
+  EnvironmentSample sample(const TexelChoice& choice) const {
+    return bilinear() ? sample_bilinear(choice) : sample_box(choice);
   }
   // Those of the tables that are not in use are empty.
   std::size_t bytes() const { return inverse.bytes() + alias.bytes() + quad.bytes(); }
@@ -230,13 +241,37 @@ EnvironmentSampler& EnvironmentSampler::operator=(EnvironmentSampler&&) noexcept
 
 EnvironmentSample EnvironmentSampler::sample(Vec2f u) const {
   if (tables_->black) return {{0, 1, 0}, {}, 0};
-  const TexelChoice choice = tables_->choose(u);
-  return tables_->bilinear() ? tables_->sample_bilinear(choice) : tables_->sample_box(choice);
+  return tables_->sample(tables_->choose(u));
+}
+
+void EnvironmentSampler::sample(std::span<const Vec2f> u, std::span<EnvironmentSample> samples) const {
+  assert(samples.size() == u.size());
+  constexpr std::size_t batch = 16;
+  std::array<TexelChoice, batch> choices;
+  for (std::size_t begin = 0; begin < u.size(); begin += batch) {
+    const std::size_t count = std::min(batch, u.size() - begin);
+    if (tables_->black) {
+      for (std::size_t i = 0; i < count; ++i) samples[begin + i] = {{0, 1, 0}, {}, 0};
+      continue;
+    }
+    tables_->choose(u.subspan(begin, count), choices.data());
+    for (std::size_t i = 0; i < count; ++i) prefetch(tables_->map.at(choices[i].x, choices[i].y));
+    for (std::size_t i = 0; i < count; ++i) samples[begin + i] = tables_->sample(choices[i]);
+  }
 }
 
 EnvironmentSample EnvironmentSampler::at(Vec3f direction) const {
+  return at(direction, tables_->locate(direction));
+}
+
+EnvironmentPlace EnvironmentSampler::place(Vec3f direction) const {
   const MapPosition position = tables_->locate(direction);
-  EnvironmentSample found = tables_->bilinear() ? tables_->at_bilinear(position) : tables_->at_box(position);
+  tables_->prefetch_texel(tables_->column_of(position.s), tables_->row_of(position.t));
+  return position;
+}
+
+EnvironmentSample EnvironmentSampler::at(Vec3f direction, const EnvironmentPlace& place) const {
+  EnvironmentSample found = tables_->bilinear() ? tables_->at_bilinear(place) : tables_->at_box(place);
   found.direction = direction;
   return found;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <span>
 
 #include <welkin/geometry/vec3f.h>
 #include <welkin/image/image.h>
@@ -38,6 +39,12 @@ struct EnvironmentSample {
   float pdf = 0;    ///< per steradian, > 0; 0: the environment is black and there is no sample
 };
 
+/// Where a direction lies in a map.
+struct EnvironmentPlace {
+  float s = 0, t = 0;  ///< of the map's width, from the left, and height, from the top
+  float sine = 0;      ///< of the angle to the poles
+};
+
 /// Throws Error for a map or options that cannot be sampled, as EnvironmentSampler says.
 void check_sampled_map(const Image& radiance, const EnvironmentSamplerOptions& options);
 
@@ -55,13 +62,18 @@ class EnvironmentSampler {
   EnvironmentSampler& operator=(EnvironmentSampler&&) noexcept;
 
   EnvironmentSample sample(Vec2f u) const;  ///< u in [0, 1)^2
-  float pdf(Vec3f direction) const;         ///< per steradian
+  /// sample of each into `samples`, of the same size: faster, because waits for memory overlap.
+  void sample(std::span<const Vec2f> u, std::span<EnvironmentSample> samples) const;
+  float pdf(Vec3f direction) const;  ///< per steradian
   /// The u that gives this direction. Throws Error for alias and for bilinear, where several give it.
   Vec2f inverse(Vec3f direction) const;
   Rgb radiance(Vec3f direction) const;          ///< as options.interpolation says
   EnvironmentSample at(Vec3f direction) const;  ///< radiance and pdf at once, cheaper
-  double mean_luminance() const;                ///< over the sphere
-  std::size_t table_bytes() const;              ///< of the tables, without the map itself
+  /// The same in two steps: place() asks for the memory that at() reads. Many places first, then what is there.
+  EnvironmentPlace place(Vec3f direction) const;
+  EnvironmentSample at(Vec3f direction, const EnvironmentPlace& place) const;
+  double mean_luminance() const;    ///< over the sphere
+  std::size_t table_bytes() const;  ///< of the tables, without the map itself
 
   /// The texels themselves, for tables that others build on this map.
   struct Texel {

@@ -1,9 +1,13 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <welkin/envmap/importance/texel_weights.h>
 #include <welkin/geometry/vec3f.h>
+#include <welkin/parallel/prefetch.h>
+#include <welkin/sampling/discrete.h>
 
 namespace welkin {
 
@@ -25,13 +29,20 @@ class InverseTable {
   InverseTable(int width, int height, const std::vector<double>& weights);
 
   TexelChoice choose(Vec2f u) const;
+  /// choose of each, of some dozen numbers at most: their waits for memory overlap.
+  void choose(std::span<const Vec2f> u, TexelChoice* choices) const;
+  /// Asks for what probability(x, y) reads.
+  void prefetch_probability(int x, int y) const { prefetch(columns(y) + x); }
   float probability(int x, int y) const {
     const float* cdf = columns(y);
     return (rows_[y + 1] - rows_[y]) * (cdf[x + 1] - cdf[x]);
   }
   /// The numbers for which choose gives this texel and `within`.
   Vec2f invert(int x, int y, Vec2f within) const;
-  std::size_t bytes() const { return (rows_.size() + columns_.size()) * sizeof(float); }
+  std::size_t bytes() const {
+    return (rows_.size() + columns_.size()) * sizeof(float) +
+           (row_cutpoints_.size() + column_cutpoints_.size()) * sizeof(std::uint16_t);
+  }
   const std::vector<float>& row_cdf() const { return rows_; }         ///< height + 1 numbers
   const std::vector<float>& column_cdfs() const { return columns_; }  ///< height times width + 1
 
@@ -39,9 +50,23 @@ class InverseTable {
   InverseTable(int width, int height);
   const float* columns(int y) const { return columns_.data() + static_cast<std::size_t>(y) * stride_; }
 
+  std::size_t row_of(float u) const {
+    const std::uint16_t* cutpoints = row_cutpoints_.data() + static_cast<int>(u * row_scale_);
+    return last_not_above(rows_.data(), cutpoints, u);
+  }
+  const std::uint16_t* column_cutpoints(int y, float u) const {
+    return column_cutpoints_.data() + static_cast<std::size_t>(y) * cutpoint_stride_ +
+           static_cast<int>(u * column_scale_);
+  }
+  TexelChoice chosen(std::size_t x, std::size_t y, Vec2f u) const;
+  void make_row_cutpoints();
+  void make_column_cutpoints(std::size_t y);
+
   int width_ = 0, height_ = 0;
-  std::size_t stride_ = 0;
+  std::size_t stride_ = 0, cutpoint_stride_ = 0;
+  float row_scale_ = 1, column_scale_ = 1;  // intervals of the cutpoints
   std::vector<float> rows_, columns_;
+  std::vector<std::uint16_t> row_cutpoints_, column_cutpoints_;
 };
 
 }  // namespace welkin
