@@ -89,9 +89,13 @@ TEST(EnvironmentSampler, BatchesGiveTheSame) {
     for (Vec2f& two : u) two = numbers.two();
     std::vector<EnvironmentSample> samples(u.size());
     sampler.sample(u, samples);
+    std::vector<Vec3f> directions;
+    for (const EnvironmentSample& sample : samples) directions.push_back(sample.direction);
+    std::vector<EnvironmentPlace> places(u.size());
+    sampler.places(directions, places);
     for (std::size_t i = 0; i < u.size(); ++i) {
       const EnvironmentSample alone = sampler.sample(u[i]), there = sampler.at(alone.direction);
-      const EnvironmentSample placed = sampler.at(alone.direction, sampler.place(alone.direction));
+      const EnvironmentSample placed = sampler.at(alone.direction, places[i]);
       ASSERT_TRUE(samples[i].direction == alone.direction && samples[i].pdf == alone.pdf) << name_of(options);
       ASSERT_EQ(samples[i].radiance.g, alone.radiance.g) << name_of(options);
       ASSERT_TRUE(placed.direction == there.direction && placed.pdf == there.pdf) << name_of(options);

@@ -50,7 +50,8 @@ TEST(Cutpoints, FindWhatBisectionFinds) {
   for (const std::size_t count : {1u, 2u, 7u, 64u, 1000u}) {
     for (const double lit : {1.0, 0.2, 0.0}) {
       std::vector<double> weights(count);
-      for (double& w : weights) w = random() < lit * 0x1p32 ? std::pow(random() * 0x1p-32, 9) : 0.0;
+      std::uniform_real_distribution<double> unit(0, 1);
+      for (double& w : weights) w = unit(random) < lit ? std::pow(unit(random), 9) : 0.0;
       std::vector<float> cdf(count + 1);
       quantised_cdf(weights.data(), count, cdf.data());
       for (const int intervals : {1, 8, 256}) {

@@ -52,16 +52,29 @@ class OcclusionTracer {
     sample.pixel->albedo = approximate_albedo(*point.scatter, point.view);
     const std::uint32_t count = std::max(options_.occlusion_rays, 1);
     share_ = 1 / static_cast<float>(count);
+    Vec2f u[RayScene::batch_size];
     for (std::uint32_t i = 0; i < count; ++i) {
-      const Vec2f u =
-          SampleStream(sample.number.index * count + i, sample.number.seed ^ 0x5bd1e995u).next_2d();
-      const Vec3f direction = point.frame.to_world(warp_to_cosine_hemisphere(u));
+      const std::uint32_t in_batch = i % RayScene::batch_size;
+      if (in_batch == 0) fill(sample.number, count, i, u);
+      const Vec3f direction = point.frame.to_world(warp_to_cosine_hemisphere(u[in_batch]));
       if (!point.faces(direction)) continue;
       pending_[pending_count_] = {leave_surface(point.surface, direction), 0, direction,
                                   options_.occlusion_distance};
       owner_[pending_count_++] = sample.pixel;
       if (pending_count_ == RayScene::batch_size) flush();
     }
+  }
+
+  /// The numbers of the rays from `first` on of a sample's `count`, those of a batch at most.
+  static void fill(SampleNumber number, std::uint32_t count, std::uint32_t first, Vec2f* u) {
+    SampleStream streams[RayScene::batch_size];
+    SampleStream* pointers[RayScene::batch_size];
+    const std::size_t batch = std::min<std::size_t>(count - first, RayScene::batch_size);
+    for (std::uint32_t i = 0; i < batch; ++i) {
+      streams[i] = SampleStream(number.index * count + first + i, number.seed ^ 0x5bd1e995u);
+      pointers[i] = &streams[i];
+    }
+    next_2d(std::span<SampleStream* const>(pointers, batch), u);
   }
 
   /// Traces what is pending; each open ray counts for its sample.

@@ -92,6 +92,7 @@ class PathTracer {
     EnvironmentPlace places[RayScene::batch_size];  ///< of the rays that meet nothing
     LightQuery queries[RayScene::batch_size];       ///< of the vertices
     LightSample lights[RayScene::batch_size];       ///< picked for the vertices
+    Vec2f directions[RayScene::batch_size];         ///< what picks the directions in which paths go on
   };
   static Workspace& workspace() {
     thread_local Workspace space;
@@ -116,7 +117,8 @@ class PathTracer {
       if (bounce == 0) describe(at.point, *at.path->sample);
       const Rgb light = direct_light(at.point, space_.lights[i], space_.shadow_rays[shadows_]);
       if (!is_black(light)) space_.candidates[shadows_++] = {at.path->throughput * light, at.path};
-      if (go_on(*at.path, at.point, bounce, at.lobe, space_.rays_out[alive])) reflected[alive++] = at.path;
+      if (go_on(*at.path, at.point, bounce, space_.directions[i], at.lobe, space_.rays_out[alive]))
+        reflected[alive++] = at.path;
     }
     add_what_is_visible(bounce);
     for (std::size_t i = 0; i < alive; ++i) space_.paths[i] = *reflected[i];  // never to a later place
@@ -153,12 +155,17 @@ class PathTracer {
   }
 
   void pick_lights(std::size_t count) {
+    SampleStream* streams[RayScene::batch_size];
+    Vec2f choices[RayScene::batch_size], u[RayScene::batch_size];
+    for (std::size_t i = 0; i < count; ++i) streams[i] = &space_.vertices[i].path->sample->stream;
+    const std::span<SampleStream* const> used(streams, count);
+    next_2d(used, choices);
+    next_2d(used, u);
+    next_2d(used, space_.directions);
     for (std::size_t i = 0; i < count; ++i) {
       Vertex& at = space_.vertices[i];
-      SampleStream& stream = at.path->sample->stream;
-      const Vec2f choice = stream.next_2d(), u = stream.next_2d();
-      at.lobe = choice.y;
-      space_.queries[i] = {at.point.surface.position, choice.x, u};
+      at.lobe = choices[i].y;
+      space_.queries[i] = {at.point.surface.position, choices[i].x, u[i]};
     }
     if (options_.sampling != LightSampling::bsdf && !lights_->empty()) {
       lights_->sample(std::span<const LightQuery>(space_.queries, count), space_.lights);
@@ -203,13 +210,18 @@ class PathTracer {
   void add_environment(std::uint32_t met, int bounce) {
     if (tables_.environment == nullptr || (bounce == 0 && !options_.show_environment)) return;
     const EnvironmentSampler& environment = *tables_.environment;
-    for (std::size_t i = 0; i < count_; ++i) {
-      if ((met >> i & 1) == 0) space_.places[i] = environment.place(space_.rays_out[i].direction);
-    }
+    Vec3f directions[RayScene::batch_size];
+    const Path* paths[RayScene::batch_size];
+    std::size_t count = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       if ((met >> i & 1) != 0) continue;
-      const Path& path = space_.paths[i];
-      const EnvironmentSample sky = environment.at(space_.rays_out[i].direction, space_.places[i]);
+      directions[count] = space_.rays_out[i].direction;
+      paths[count++] = &space_.paths[i];
+    }
+    environment.places({directions, count}, {space_.places, count});
+    for (std::size_t i = 0; i < count; ++i) {
+      const Path& path = *paths[i];
+      const EnvironmentSample sky = environment.at(directions[i], space_.places[i]);
       add(weight_of_path_to_sky(path, sky.pdf) * path.throughput * sky.radiance, bounce - 1, *path.sample);
     }
   }
@@ -255,9 +267,9 @@ class PathTracer {
   }
 
   /// Takes the path's next direction. False where it ends here.
-  bool go_on(Path& path, const ShadingPoint& point, int bounce, float lobe, Ray& ray) {
+  bool go_on(Path& path, const ShadingPoint& point, int bounce, Vec2f u, float lobe, Ray& ray) {
     SampleStream& stream = path.sample->stream;
-    const ScatterSample next = sample(*point.scatter, point.view, stream.next_2d(), lobe);
+    const ScatterSample next = sample(*point.scatter, point.view, u, lobe);
     const bool last = bounce == bounces_;
     const Vec3f direction = next.pdf > 0 ? point.frame.to_world(next.light) : point.frame.normal;
     if (product_ != nullptr) sample_product(path, point, direction);

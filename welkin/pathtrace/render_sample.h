@@ -22,15 +22,24 @@ void render_samples_with(Rays& rays, const RenderScene& scene, const Camera& cam
   const auto trace_batch = [&](auto& tracer, std::size_t begin, std::size_t count) {
     Ray camera_rays[RayScene::batch_size];
     typename std::remove_reference_t<decltype(tracer)>::Sample batch[RayScene::batch_size];
+    SampleStream streams[RayScene::batch_size];
+    SampleStream* pointers[RayScene::batch_size];
+    Vec2f in_pixel[RayScene::batch_size];
+    const auto seed_of = [&](SampleNumber number) {
+      return mix_bits32(mix_bits32(number.seed + 0x632be5abu) + pixel);
+    };
     for (std::size_t i = 0; i < count; ++i) {
       const SampleNumber number = numbers[begin + i];
-      const std::uint32_t seed = mix_bits32(mix_bits32(number.seed + 0x632be5abu) + pixel);
-      SampleStream stream(number.index, seed);
-      const Vec2f in_pixel = stream.next_2d();
-      camera_rays[i] = view.ray(static_cast<float>(x) + in_pixel.x, static_cast<float>(y) + in_pixel.y);
+      streams[i] = SampleStream(number.index, seed_of(number));
+      pointers[i] = &streams[i];
+    }
+    next_2d(std::span<SampleStream* const>(pointers, count), in_pixel);
+    for (std::size_t i = 0; i < count; ++i) {
+      const SampleNumber number = numbers[begin + i];
+      camera_rays[i] = view.ray(static_cast<float>(x) + in_pixel[i].x, static_cast<float>(y) + in_pixel[i].y);
       out[begin + i] = PixelSample();
       batch[i].pixel = &out[begin + i];
-      batch[i].begin({number.index, seed}, stream);
+      batch[i].begin({number.index, seed_of(number)}, streams[i]);
     }
     tracer.trace(std::span<const Ray>(camera_rays, count), batch);
     for (std::size_t i = 0; i < count; ++i) {

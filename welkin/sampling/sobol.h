@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include <welkin/geometry/vec3f.h>
 
@@ -60,13 +61,14 @@ constexpr std::uint32_t mix_bits32(std::uint32_t v) {
 /// stratified against each other dimension by dimension, so calls have to come in the same order in all of them.
 class SampleStream {
  public:
+  SampleStream() : SampleStream(0, 0) {}
   /// seed: of the pixel and the picture. Streams of different seeds are independent.
   SampleStream(std::uint32_t sample_index, std::uint32_t seed)
       : reversed_index_(reversed_bits(sample_index)), seed_(seed) {}
 
   /// Uniform in [0, 1)^2.
   Vec2f next_2d() {
-    const std::uint32_t seed = mix_bits32(seed_ + 0x9e3779b9u * ++dimension_);
+    const std::uint32_t seed = mix_bits32(next_seed());
     const std::uint32_t shuffled = reversed_bits(scrambled_reversed(reversed_index_, seed));
     const std::uint32_t x = scrambled_reversed(shuffled, mix_bits32(seed ^ 0x55555555u));
     const std::uint32_t y =
@@ -75,13 +77,20 @@ class SampleStream {
   }
   /// Uniform in [0, 1).
   float next_1d() {
-    const std::uint32_t seed = mix_bits32(seed_ + 0x9e3779b9u * ++dimension_);
+    const std::uint32_t seed = mix_bits32(next_seed());
     const std::uint32_t shuffled = reversed_bits(scrambled_reversed(reversed_index_, seed));
     return unit_float(reversed_bits(scrambled_reversed(shuffled, mix_bits32(seed ^ 0x55555555u))));
   }
 
+  /// next_2d of each into numbers; what a batch of samples needs is made together, several times as fast.
+  friend void next_2d(std::span<SampleStream* const> streams, Vec2f* numbers);
+
  private:
+  std::uint32_t next_seed() { return seed_ + 0x9e3779b9u * ++dimension_; }
+
   std::uint32_t reversed_index_ = 0, seed_ = 0, dimension_ = 0;
 };
+
+void next_2d(std::span<SampleStream* const> streams, Vec2f* numbers);
 
 }  // namespace welkin

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <welkin/envmap/importance/alias_table.h>
+#include <welkin/envmap/importance/direction_lanes.h>
 #include <welkin/envmap/importance/inverse_table.h>
 #include <welkin/envmap/importance/quad_table.h>
 #include <welkin/error.h>
@@ -108,7 +109,6 @@ struct EnvironmentSampler::Tables {
   // Those of the tables that are not in use are empty.
   std::size_t bytes() const { return inverse.bytes() + alias.bytes() + quad.bytes(); }
 
-  MapPosition locate(Vec3f direction) const;
   int column_of(float s) const { return std::min(static_cast<int>(s * wide), map.width - 1); }
   int row_of(float t) const { return std::min(static_cast<int>(t * high), map.height - 1); }
   Rgb texel(int x, int y) const {
@@ -120,7 +120,15 @@ struct EnvironmentSampler::Tables {
     constexpr float jacobian = static_cast<float>(2 * std::numbers::pi * std::numbers::pi);
     return texels / (jacobian * std::max(sine, smallest_sine));
   }
+  // From the left edge, in turns; and h within a row.
+  float turns_of(int x, Vec2f within) const {
+    return (static_cast<float>(x) + clamped_unit(within.x, margin)) / wide;
+  }
+  float height_of(const RowShape& row, Vec2f within) const {
+    return row.h + clamped_unit(within.y, margin) * row.h_step;
+  }
   Vec3f solid_angle_direction(int x, int y, Vec2f within) const;
+  void sample_boxes(std::span<const TexelChoice> choices, EnvironmentSample* samples) const;
   EnvironmentSample sample_box(const TexelChoice& choice) const;
   EnvironmentSample sample_bilinear(const TexelChoice& choice) const;
   EnvironmentSample at_box(const MapPosition& position) const;
@@ -166,18 +174,29 @@ EnvironmentSampler::Tables::Tables(Image&& radiance, const EnvironmentSamplerOpt
   }
 }
 
-MapPosition EnvironmentSampler::Tables::locate(Vec3f d) const {
-  const float sine = std::sqrt(d.x * d.x + d.z * d.z);
-  const float s = atan2_turns(d.z, d.x) + 0.5f;
-  return {s < 1 ? s : 0, 2 * atan2_turns(sine, d.y), sine};
+Vec3f EnvironmentSampler::Tables::solid_angle_direction(int x, int y, Vec2f within) const {
+  const RowShape& row = rows[y];
+  return direction_by_height(turns_of(x, within), height_of(row, within), row.pole);
 }
 
-Vec3f EnvironmentSampler::Tables::solid_angle_direction(int x, int y, Vec2f within) const {
-  const float s = (static_cast<float>(x) + clamped_unit(within.x, margin)) / wide;
-  const Vec2f around = cos_sin_turns(s - 0.5f);
-  const RowShape& row = rows[y];
-  const float h = row.h + clamped_unit(within.y, margin) * row.h_step, sine = 2 * std::sqrt(h * (1 - h));
-  return {sine * around.x, row.pole * (1 - 2 * h), sine * around.y};
+void EnvironmentSampler::Tables::sample_boxes(std::span<const TexelChoice> choices,
+                                              EnvironmentSample* samples) const {
+  HeightLanes lanes;
+  assert(choices.size() <= direction_lanes);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const TexelChoice& choice = choices[i];
+    const RowShape& row = rows[choice.y];
+    lanes.turns[i] = turns_of(choice.x, choice.within);
+    lanes.h[i] = height_of(row, choice.within);
+    lanes.pole[i] = row.pole;
+  }
+  directions_by_height(lanes);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const TexelChoice& choice = choices[i];
+    samples[i] = {{lanes.x[i], lanes.y[i], lanes.z[i]},
+                  texel(choice.x, choice.y),
+                  choice.probability * rows[choice.y].per_steradian};
+  }
 }
 
 EnvironmentSample EnvironmentSampler::Tables::sample_box(const TexelChoice& choice) const {
@@ -246,7 +265,7 @@ EnvironmentSample EnvironmentSampler::sample(Vec2f u) const {
 
 void EnvironmentSampler::sample(std::span<const Vec2f> u, std::span<EnvironmentSample> samples) const {
   assert(samples.size() == u.size());
-  constexpr std::size_t batch = 16;
+  constexpr std::size_t batch = direction_lanes;
   std::array<TexelChoice, batch> choices;
   for (std::size_t begin = 0; begin < u.size(); begin += batch) {
     const std::size_t count = std::min(batch, u.size() - begin);
@@ -256,18 +275,33 @@ void EnvironmentSampler::sample(std::span<const Vec2f> u, std::span<EnvironmentS
     }
     tables_->choose(u.subspan(begin, count), choices.data());
     for (std::size_t i = 0; i < count; ++i) prefetch(tables_->map.at(choices[i].x, choices[i].y));
-    for (std::size_t i = 0; i < count; ++i) samples[begin + i] = tables_->sample(choices[i]);
+    if (!tables_->bilinear() && tables_->options.density == EnvironmentDensity::luminance_solid_angle) {
+      tables_->sample_boxes({choices.data(), count}, &samples[begin]);
+    } else {
+      for (std::size_t i = 0; i < count; ++i) samples[begin + i] = tables_->sample(choices[i]);
+    }
   }
 }
 
 EnvironmentSample EnvironmentSampler::at(Vec3f direction) const {
-  return at(direction, tables_->locate(direction));
+  return at(direction, place_in_map(direction));
 }
 
-EnvironmentPlace EnvironmentSampler::place(Vec3f direction) const {
-  const MapPosition position = tables_->locate(direction);
-  tables_->prefetch_texel(tables_->column_of(position.s), tables_->row_of(position.t));
-  return position;
+void EnvironmentSampler::places(std::span<const Vec3f> directions, std::span<EnvironmentPlace> found) const {
+  assert(found.size() == directions.size());
+  for (std::size_t begin = 0; begin < directions.size(); begin += direction_lanes) {
+    const std::size_t count = std::min(direction_lanes, directions.size() - begin);
+    PlaceLanes lanes;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3f& d = directions[begin + i];
+      lanes.x[i] = d.x, lanes.y[i] = d.y, lanes.z[i] = d.z;
+    }
+    places_in_map(lanes);
+    for (std::size_t i = 0; i < count; ++i) {
+      found[begin + i] = {lanes.s[i], lanes.t[i], lanes.sine[i]};
+      tables_->prefetch_texel(tables_->column_of(lanes.s[i]), tables_->row_of(lanes.t[i]));
+    }
+  }
 }
 
 EnvironmentSample EnvironmentSampler::at(Vec3f direction, const EnvironmentPlace& place) const {
@@ -283,7 +317,7 @@ Vec2f EnvironmentSampler::inverse(Vec3f direction) const {
   const Tables& tables = *tables_;
   if (tables.bilinear() || tables.options.table == EnvironmentTable::alias)
     throw Error("cannot invert samples of an alias table or an interpolated map: several numbers give each");
-  const MapPosition position = tables.locate(direction);
+  const MapPosition position = place_in_map(direction);
   const int x = tables.column_of(position.s), y = tables.row_of(position.t);
   const float across = std::clamp(position.s * tables.wide - static_cast<float>(x), 0.0f, 1.0f);
   float down = position.t * tables.high - static_cast<float>(y);
@@ -302,7 +336,7 @@ const Image& EnvironmentSampler::map() const { return tables_->map; }
 const EnvironmentSamplerOptions& EnvironmentSampler::options() const { return tables_->options; }
 
 EnvironmentSampler::Texel EnvironmentSampler::texel_of(Vec3f direction) const {
-  const MapPosition position = tables_->locate(direction);
+  const MapPosition position = place_in_map(direction);
   return {tables_->column_of(position.s), tables_->row_of(position.t)};
 }
 Vec3f EnvironmentSampler::direction_in(Texel texel, Vec2f within) const {

@@ -69,8 +69,8 @@ class EnvironmentSampler {
   Vec2f inverse(Vec3f direction) const;
   Rgb radiance(Vec3f direction) const;          ///< as options.interpolation says
   EnvironmentSample at(Vec3f direction) const;  ///< radiance and pdf at once, cheaper
-  /// The same in two steps: place() asks for the memory that at() reads. Many places first, then what is there.
-  EnvironmentPlace place(Vec3f direction) const;
+  /// The same in two steps: places() finds the places, of the same number, and asks for the memory that at() reads.
+  void places(std::span<const Vec3f> directions, std::span<EnvironmentPlace> found) const;
   EnvironmentSample at(Vec3f direction, const EnvironmentPlace& place) const;
   double mean_luminance() const;    ///< over the sphere
   std::size_t table_bytes() const;  ///< of the tables, without the map itself
