@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "environment_options.h"
@@ -11,6 +14,8 @@
 
 #include <welkin/envmap/importance/sampling_table.h>
 #include <welkin/error.h>
+#include <welkin/image/codecs/exr.h>
+#include <welkin/image/codecs/ktx2.h>
 #include <welkin/image/output_file.h>
 #include <welkin/sampling/sequence.h>
 #include <welkin/sphere/equirect.h>
@@ -39,13 +44,21 @@ EnvironmentSamplerOptions options_of(const SamplingCommand& command) {
   return options;
 }
 
+std::vector<std::uint8_t> encode_table(const SamplingCommand& command, const Image& table) {
+  if (extension_of(command.output) == ".exr") return encode_exr(table, {ExrPixelType::single_float, 1});
+  return encode_ktx2_table(table, {{"WelkinQuantity", "sampling table " + command.form}});
+}
+
 void check(const SamplingCommand& command) {
   if (command.output.empty() && command.glsl.empty() && command.picture.empty())
     throw CLI::ValidationError("-o", "name a table to write, or --glsl or --picture");
-  if (!command.output.empty() && extension_of(command.output) != ".exr")
-    throw CLI::ValidationError("-o", command.output + " is not an .exr");
+  const std::string extension = extension_of(command.output);
+  if (!command.output.empty() && extension != ".exr" && extension != ".ktx2")
+    throw CLI::ValidationError("-o", command.output + " is neither .exr nor .ktx2");
   if (!command.picture.empty() && extension_of(command.picture) != ".png")
     throw CLI::ValidationError("--picture", command.picture + " is not a .png");
+  if (!command.glsl.empty() && (command.glsl == command.output || command.glsl == command.picture))
+    throw CLI::ValidationError("--glsl", command.glsl + " is the name of another output");
   for (const std::string& file : {command.output, command.glsl, command.picture})
     check_output(file, command.in.input);
 }
@@ -134,19 +147,23 @@ void run(const SamplingCommand& command) {
   check(command);
   const Environment environment = load(command.in);
   const EnvironmentSamplerOptions options = options_of(command);
+  std::vector<OutputFile> files;
+  Image table;
   if (!command.output.empty()) {
-    const Image table = make_sampling_table(environment.radiance, form_of(command), options);
-    write_file(command.output, encode_flat(command.output, table, true));
-    fmt::print("{}: {} x {}, {} channel{}, {} bytes as floats\n", command.output, table.width, table.height,
-               table.channels, table.channels > 1 ? "s" : "", table.pixels.size() * sizeof(float));
+    table = make_sampling_table(environment.radiance, form_of(command), options);
+    files.push_back({command.output, encode_table(command, table)});
   }
   if (!command.glsl.empty()) {
     const std::string code = sampling_table_glsl(form_of(command), options);
-    write_file(command.glsl, std::vector<std::uint8_t>(code.begin(), code.end()));
+    files.push_back({command.glsl, {code.begin(), code.end()}});
   }
   const EnvironmentSampler sampler(environment.radiance, options);
   if (!command.picture.empty())
-    write_file(command.picture, encode_flat(command.picture, draw(sampler, command.points)));
+    files.push_back({command.picture, encode_flat(command.picture, draw(sampler, command.points))});
+  write_files(files);
+  if (!table.empty())
+    fmt::print("{}: {} x {}, {} channel{}, {} bytes as floats\n", command.output, table.width, table.height,
+               table.channels, table.channels > 1 ? "s" : "", table.pixels.size() * sizeof(float));
   print_range(sampler);
   print_noise(environment.radiance, options);
 }
@@ -158,7 +175,7 @@ void add_sampling_command(CLI::App& app) {
   CLI::App* sub =
       app.add_subcommand("sampling", "Tables and shader code that sample an environment by importance");
   add_environment_options(*sub, command->in);
-  sub->add_option("-o,--output", command->output, "Table to write: .exr, single floats");
+  sub->add_option("-o,--output", command->output, "Table to write: .exr or .ktx2, single floats");
   sub->add_option("--form", command->form,
                   "rows: means of the rows; cdf: CDFs of rows and columns; alias: one look-up")
       ->check(CLI::IsMember({"rows", "cdf", "alias"}))

@@ -10,6 +10,7 @@
 #include <welkin/image/codecs/hdr.h>
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/faults.h>
+#include <welkin/image/file_extension.h>
 #include <welkin/image/load.h>
 #include <welkin/image/range_fit.h>
 #include <welkin/image/tonemap.h>
@@ -54,11 +55,7 @@ void check_output(const std::string& path, const std::string& input) {
     throw Error(path, "cannot be written: there is no folder " + folder.string());
 }
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension;
-}
+std::string extension_of(const std::string& path) { return lower_case_extension(path); }
 
 void check_flat_name(const std::string& path) {
   const std::string extension = extension_of(path);

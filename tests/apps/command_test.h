@@ -32,6 +32,17 @@ class CommandTest : public testing::Test {
     EXPECT_EQ(result.err, "");
     return result.out;
   }
+  /// One line on standard error with `why` in it, this exit code, nothing on standard output, and all files as they were.
+  void expect_refused(const Arguments& arguments, int exit_code, const std::string& why) const {
+    const auto before = files_below(at(""));
+    const RunResult result = run(arguments);
+    const std::string all = testing::PrintToString(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << all << result.err;
+    EXPECT_EQ(line_count(result.err), 1u) << all << result.err;
+    EXPECT_NE(result.err.find(why), std::string::npos) << all << result.err;
+    EXPECT_EQ(result.out, "") << all;
+    EXPECT_TRUE(files_below(at("")) == before) << all;
+  }
   nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(read_text(at(name))); }
 
  private:

@@ -11,20 +11,7 @@ namespace {
 
 const std::string map = "sky:labelled,size=32x16";
 
-class ShCommandTest : public CommandTest {
- protected:
-  // One line on standard error, and this exit code.
-  void expect_refused(const Arguments& arguments, int exit_code, const std::string& why) const {
-    const auto before = files_below(at(""));
-    const RunResult result = run(arguments);
-    const std::string all = testing::PrintToString(arguments);
-    EXPECT_EQ(result.exit_code, exit_code) << all;
-    EXPECT_EQ(line_count(result.err), 1u) << result.err;
-    EXPECT_NE(result.err.find(why), std::string::npos) << all << result.err;
-    EXPECT_EQ(result.out, "") << all;
-    EXPECT_TRUE(files_below(at("")) == before) << all;
-  }
-};
+using ShCommandTest = CommandTest;
 
 TEST_F(ShCommandTest, EveryFormOfAnEnvironmentComesBackAsItsCoefficients) {
   run_well({"sh", map, "--json", "truth.json"});

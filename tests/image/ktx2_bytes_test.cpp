@@ -2,12 +2,15 @@
 
 #include <array>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include <zstd.h>
 
 #include <gtest/gtest.h>
+
+#include <welkin/error.h>
 
 #include "tests/image/textures.h"
 
@@ -208,6 +211,48 @@ TEST(Ktx2Bytes, FlatImages) {
       expect_levels(bytes, expected, 1, compressed);
     }
   }
+}
+
+// Tables: the numbers as they are, alpha and those that no texture format takes included.
+TEST(Ktx2Bytes, Tables) {
+  const std::vector<Expected> all = {
+      {PixelFormat::rgba32f,
+       100,
+       4,
+       4,
+       4,
+       {44, 0, 0x00280002, 0x00010101, 0, 4, 0, 0xC01F0000, 0, 0xBF800000, 0x3F800000}},
+      expectations().at(4),
+      {PixelFormat::rgba32f,
+       106,
+       4,
+       12,
+       12,
+       {76, 0, 0x00480002, 0x00010101, 0, 12, 0, 0xC01F0000, 0, 0xBF800000, 0x3F800000, 0xC11F0020, 0,
+        0xBF800000, 0x3F800000, 0xC21F0040, 0, 0xBF800000, 0x3F800000}},
+      expectations().at(1)};
+  for (int channels = 1; channels <= 4; ++channels) {
+    const Expected& expected = all.at(static_cast<std::size_t>(channels - 1));
+    Image table = test_image(5, 3, channels);
+    table.pixels[1] = -0.0f;
+    table.pixels[2] = std::numeric_limits<float>::infinity();
+    const std::vector<std::uint8_t> bytes = encode_ktx2_table(table, {{"WelkinQuantity", "x"}});
+    expect_header(bytes, expected, {5, 3, 1, 1, 0}, 0);
+    expect_descriptor(bytes, expected);
+    expect_levels(bytes, expected, 1, false);
+    const std::size_t size = table.pixels.size() * sizeof(float);
+    EXPECT_EQ(std::memcmp(bytes.data() + bytes.size() - size, table.pixels.data(), size), 0);
+    const Image back = decode_ktx2(bytes, "table").flat;
+    for (int i = 0; i < 15; ++i)
+      for (int c = 0; c < 3; ++c)
+        EXPECT_EQ(back.at(i % 5, i / 5)[c], channels == 1  ? table.pixels[i]
+                                            : c < channels ? table.at(i % 5, i / 5)[c]
+                                                           : 0.0f)
+            << i << " " << c;
+    EXPECT_EQ(read_ktx2_keys(bytes, "table").at("WelkinQuantity"), "x");
+  }
+  EXPECT_THROW(encode_ktx2_table(Image()), Error);
+  EXPECT_THROW(encode_ktx2_table(test_image(1, 1), {{"KTXnumber", "1"}}), Error);
 }
 
 // The whole key/value block, byte by byte: entries sorted, texts end with a zero, entries padded to 4.

@@ -1,7 +1,5 @@
 #include <welkin/image/load.h>
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
 #include <welkin/error.h>
@@ -10,6 +8,7 @@
 #include <welkin/image/codecs/hdr.h>
 #include <welkin/image/codecs/ktx2.h>
 #include <welkin/image/codecs/ldr.h>
+#include <welkin/image/file_extension.h>
 #include <welkin/image/output_file.h>
 #include <welkin/image/tonemap.h>
 
@@ -32,13 +31,6 @@ constexpr Format formats[] = {
     {"#?", decode_radiance},      {"\x76\x2f\x31\x01", decode_exr}, {"\x89PNG", decode_ldr},
     {"\xff\xd8\xff", decode_ldr}, {"\xabKTX 20\xbb", decode_ktx2},  {"DDS ", decode_dds},
 };
-
-std::string lower_case_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 }  // namespace
 

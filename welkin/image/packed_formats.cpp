@@ -127,6 +127,7 @@ void decode_pixel(const std::uint8_t* in, PixelLayout layout, float factor, floa
   } else {
     std::memcpy(values.data(), in, count * sizeof(float));
   }
+  if (count == 1) values[1] = values[2] = values[0];
   for (std::size_t c = 0; c < 3; ++c) rgb[c] = factor * values[c];
 }
 

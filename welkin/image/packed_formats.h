@@ -94,9 +94,9 @@ void floats_from_r11g11b10f(std::uint32_t word, float rgb[3]);
 std::size_t encode_pixels(std::span<const float> pixels, int channels, float factor, PixelFormat format,
                           std::span<std::uint8_t> bytes);
 
-/// The reverse for any layout, into three floats a pixel, each multiplied by `factor`: a fourth channel is
-/// dropped, a missing third is 0. rgb.size() == 3 * pixels and bytes.size() == pixels * layout.bytes(). Runs
-/// on all threads.
+/// The reverse for any layout, into three floats a pixel, each multiplied by `factor`: a fourth channel is dropped, a
+/// missing third is 0, a single one is repeated as gray. rgb.size() == 3 * pixels and bytes.size() == pixels *
+/// layout.bytes(). Runs on all threads.
 void decode_pixels(std::span<const std::uint8_t> bytes, PixelLayout layout, float factor,
                    std::span<float> rgb);
 

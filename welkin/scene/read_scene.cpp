@@ -1,10 +1,9 @@
 #include <welkin/scene/read_scene.h>
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
 #include <welkin/error.h>
+#include <welkin/image/file_extension.h>
 #include <welkin/image/output_file.h>
 #include <welkin/scene/built_in.h>
 #include <welkin/scene/gltf.h>
@@ -12,16 +11,6 @@
 #include <welkin/scene/ply.h>
 
 namespace welkin {
-namespace {
-
-std::string lower_case_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
-}  // namespace
 
 Scene read_scene(const std::filesystem::path& path) {
   const std::string name = path.string(), extension = lower_case_extension(path);

@@ -84,10 +84,12 @@ constexpr const char* by_solid_angle =
 }
 WelkinSample welkin_place(ivec2 texel, vec2 within, float probability, ivec2 size) {
   float phi = 2.0 * WELKIN_PI * ((float(texel.x) + within.x) / float(size.x) - 0.5);
-  float angle = WELKIN_PI / float(size.y);
-  float c = mix(cos(float(texel.y) * angle), cos(float(texel.y + 1) * angle), within.y);
-  float s = sqrt(max(0.0, 1.0 - c * c));
-  vec3 direction = vec3(s * cos(phi), c, s * sin(phi));
+  // sin^2(theta / 2), of the angle to the nearer pole, is as linear as cos theta and keeps its digits there.
+  float pole = 2 * texel.y < size.y ? 1.0 : -1.0, angle = 0.5 * WELKIN_PI / float(size.y);
+  float edge = float(pole > 0.0 ? texel.y : size.y - texel.y);
+  float a = sin(edge * angle), b = sin((edge + pole) * angle), h = mix(a * a, b * b, within.y);
+  float s = 2.0 * sqrt(max(0.0, h * (1.0 - h)));
+  vec3 direction = vec3(s * cos(phi), pole * (1.0 - 2.0 * h), s * sin(phi));
   return WelkinSample(direction, welkin_density(texel, direction, probability, size), texel);
 }
 )";
@@ -191,10 +193,12 @@ WelkinSample welkin_sample(sampler2D environment, sampler2D table, vec2 u) {
   ivec2 texel = min(ivec2(scaled), size - 1);
   vec2 within = min(scaled - vec2(texel), vec2(0.999999));
   vec4 entry = texelFetch(table, texel, 0);
-  if (within.x < entry.r) {
-    within.x /= entry.r;
+  // The remainder of u.x has few digits left in a wide map; those of u.y lengthen it.
+  float t = min(within.x + float(size.x) / 16777216.0 * within.y, 0.9999999);
+  if (t < entry.r) {
+    within.x = t / entry.r;
   } else {
-    within.x = (within.x - entry.r) / (1.0 - entry.r);
+    within.x = (t - entry.r) / (1.0 - entry.r);
     texel = ivec2(entry.gb + 0.5);
   }
   return welkin_place(texel, within, texelFetch(table, texel, 0).a, size);

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <welkin/image/codecs/block_quality.h>
 #include <welkin/image/codecs/encoded_texture.h>
@@ -49,13 +50,18 @@ EncodedTexture encode_ktx2(const CubeMips& cube, const Ktx2Options& options = {}
 /// The same for a flat image with one level; KTXorientation "rd" (row 0 is the top).
 EncodedTexture encode_ktx2(const Image& image, const Ktx2Options& options = {});
 
+/// Numbers that are no colours (tables), bit for bit: a flat texture with one level in R32, R32G32, R32G32B32 or
+/// R32G32B32A32 SFLOAT, by the image's 1 to 4 channels; KTXorientation "rd". decode_ktx2 gives the first three back.
+/// Throws Error for an empty image and bad keys.
+std::vector<std::uint8_t> encode_ktx2_table(const Image& table,
+                                            const std::map<std::string, std::string>& keys = {});
+
 /// Decodes cube maps with any number of levels and flat images (their largest level) in R16G16, R16G16B16,
-/// R16G16B16A16, R32G32, R32G32B32, R32G32B32A32 SFLOAT, E5B9G9R9, B10G11R11, BC6H (both) and ASTC HDR 4x4 and 6x6,
-/// plain or with Zstandard. The pixels are
-/// true values: WelkinStoredScale is multiplied back in, and LoadedImage::stored_scale is 1. A flat image
-/// that is stored upside down or mirrored (KTXorientation) is turned to rows from the top. Two channels get a
-/// zero third one; alpha is dropped. Throws Error naming `name` for anything damaged, truncated or of another
-/// kind.
+/// R16G16B16A16, R32, R32G32, R32G32B32, R32G32B32A32 SFLOAT, E5B9G9R9, B10G11R11, BC6H (both) and ASTC HDR 4x4 and
+/// 6x6, plain or with Zstandard. The pixels are true values: WelkinStoredScale is multiplied back in, and
+/// LoadedImage::stored_scale is 1. A flat image that is stored upside down or mirrored (KTXorientation) is turned to
+/// rows from the top. One channel is repeated as gray, two get a zero third one; alpha is dropped. Throws Error naming
+/// `name` for anything damaged, truncated or of another kind.
 LoadedImage decode_ktx2(std::span<const std::uint8_t> bytes, std::string_view name);
 
 /// The key/value texts of a file, without the terminating zero; values that are not text come as they are.

@@ -8,8 +8,8 @@ namespace {
 
 using Component = PixelLayout::Component;
 
-// Those we write come first, in the order of PixelFormat.
-constexpr std::array<Ktx2Format, 12> formats = {{
+// Those of PixelFormat come first, in its order.
+constexpr std::array<Ktx2Format, 13> formats = {{
     {97, 2, {Component::half, 4}, "RGBA16F"},
     {109, 4, {Component::float32, 4}, "RGBA32F"},
     {123, 4, {Component::shared_exponent, 3}, "E5B9G9R9"},
@@ -22,6 +22,7 @@ constexpr std::array<Ktx2Format, 12> formats = {{
     {1000066004, 1, {Component::astc_hdr, 3, 6, 6}, "ASTC HDR 6x6"},
     {90, 2, {Component::half, 3}, "RGB16F"},
     {106, 4, {Component::float32, 3}, "RGB32F"},
+    {100, 4, {Component::float32, 1}, "R32F"},
 }};
 
 constexpr std::uint32_t model_rgbsda = 1, model_bc6h = 133, model_astc = 162;
@@ -94,6 +95,11 @@ std::uint32_t block_dimensions(PixelLayout layout) {
 }  // namespace
 
 const Ktx2Format& ktx2_format(PixelFormat format) { return formats.at(static_cast<std::size_t>(format)); }
+
+const Ktx2Format& ktx2_float_format(int channels) {
+  constexpr std::array<std::uint32_t, 4> numbers = {100, 103, 106, 109};
+  return *find_ktx2_format(numbers.at(static_cast<std::size_t>(channels - 1)));
+}
 
 const Ktx2Format* find_ktx2_format(std::uint32_t vk_format) {
   for (const Ktx2Format& format : formats) {

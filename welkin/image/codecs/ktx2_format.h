@@ -32,6 +32,9 @@ struct Ktx2Format {
 /// The entry of a format that we write.
 const Ktx2Format& ktx2_format(PixelFormat format);
 
+/// The entry of single floats with 1 to 4 channels.
+const Ktx2Format& ktx2_float_format(int channels);
+
 /// The entry with this VkFormat; null for one that we do not read.
 const Ktx2Format* find_ktx2_format(std::uint32_t vk_format);
 

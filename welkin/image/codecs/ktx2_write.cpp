@@ -1,3 +1,4 @@
+#include <cstring>
 #include <locale>
 #include <sstream>
 #include <vector>
@@ -14,10 +15,8 @@
 namespace welkin {
 namespace {
 
-void check_options(const Ktx2Options& options) {
-  if (options.zstd_level < 0 || options.zstd_level > 22)
-    throw Error("the zstd level must be between 0 and 22");
-  for (const auto& [key, value] : options.keys) {
+void check_keys(const std::map<std::string, std::string>& keys) {
+  for (const auto& [key, value] : keys) {
     const std::string prefix = key.substr(0, 3);
     if (key.empty() || prefix == "KTX" || prefix == "ktx" || key == ktx2_scale_key) {
       throw Error("the KTX2 key '" + key + "' is empty or reserved");
@@ -25,6 +24,12 @@ void check_options(const Ktx2Options& options) {
     if ((key + value).find('\0') != std::string::npos)
       throw Error("the KTX2 key '" + key + "' holds a zero byte");
   }
+}
+
+void check_options(const Ktx2Options& options) {
+  if (options.zstd_level < 0 || options.zstd_level > 22)
+    throw Error("the zstd level must be between 0 and 22");
+  check_keys(options.keys);
 }
 
 std::string decimal(double value) {
@@ -41,8 +46,7 @@ void pad_to(std::vector<std::uint8_t>& bytes, std::size_t alignment) {
 
 // Entries sorted by key (std::map orders by bytes, which for UTF-8 is the order of code points), each with
 // its length, the key, a zero byte, the text, a zero byte, and zeros up to a multiple of 4.
-std::vector<std::uint8_t> key_value_data(const Ktx2Options& options, double stored_scale) {
-  std::map<std::string, std::string> entries = options.keys;
+std::vector<std::uint8_t> key_value_data(std::map<std::string, std::string> entries, double stored_scale) {
   entries["KTXorientation"] = "rd";
   entries["KTXwriter"] = "welkin 0.1";
   if (stored_scale != 1) entries[std::string(ktx2_scale_key)] = decimal(stored_scale);
@@ -113,9 +117,8 @@ Layout lay_out(std::size_t descriptor_size, std::size_t keys_size, const std::ve
   return layout;
 }
 
-void put_header(std::vector<std::uint8_t>& bytes, const TextureSource& source, const Ktx2Options& options,
-                const Layout& layout) {
-  const Ktx2Format& format = ktx2_format(options.format);
+void put_header(std::vector<std::uint8_t>& bytes, const TextureSource& source, const Ktx2Format& format,
+                bool supercompressed, const Layout& layout) {
   bytes.insert(bytes.end(), ktx2_identifier.begin(), ktx2_identifier.end());
   put_u32(bytes, format.vk_format);
   put_u32(bytes, format.type_size);
@@ -125,7 +128,7 @@ void put_header(std::vector<std::uint8_t>& bytes, const TextureSource& source, c
   put_u32(bytes, 0);  // layers: not an array
   put_u32(bytes, static_cast<std::uint32_t>(source.faces));
   put_u32(bytes, static_cast<std::uint32_t>(source.levels.size()));
-  put_u32(bytes, options.zstd_level > 0 ? ktx2_scheme_zstd : ktx2_scheme_none);
+  put_u32(bytes, supercompressed ? ktx2_scheme_zstd : ktx2_scheme_none);
   put_u32(bytes, static_cast<std::uint32_t>(layout.descriptor_offset));
   put_u32(bytes, static_cast<std::uint32_t>(layout.descriptor_size));
   put_u32(bytes, static_cast<std::uint32_t>(layout.keys_offset));
@@ -134,19 +137,14 @@ void put_header(std::vector<std::uint8_t>& bytes, const TextureSource& source, c
   put_u64(bytes, 0);
 }
 
-EncodedTexture encode(const TextureSource& source, const Ktx2Options& options) {
-  check_options(options);
-  EncodedTexture texture;
-  texture.stored_scale = texture_scale(source, options.format, options.range, options.stored_scale);
-  const std::vector<EncodedLevel> levels = encode_levels(source, options, texture);
-  const PixelLayout pixel = pixel_layout(options.format);
-  const std::vector<std::uint32_t> descriptor = ktx2_data_format_descriptor(pixel);
-  const std::vector<std::uint8_t> keys = key_value_data(options, texture.stored_scale);
+void assemble(std::vector<std::uint8_t>& bytes, const TextureSource& source, const Ktx2Format& format,
+              bool supercompressed, const std::vector<EncodedLevel>& levels,
+              const std::vector<std::uint8_t>& keys) {
+  const std::vector<std::uint32_t> descriptor = ktx2_data_format_descriptor(format.layout);
   const Layout layout = lay_out(4 * descriptor.size(), keys.size(), levels,
-                                ktx2_level_alignment(pixel, options.zstd_level > 0));
-  std::vector<std::uint8_t>& bytes = texture.bytes;
+                                ktx2_level_alignment(format.layout, supercompressed));
   bytes.reserve(layout.file_size);
-  put_header(bytes, source, options, layout);
+  put_header(bytes, source, format, supercompressed, layout);
   for (std::size_t k = 0; k < levels.size(); ++k) {
     put_u64(bytes, layout.level_offsets[k]);
     put_u64(bytes, levels[k].bytes.size());
@@ -158,6 +156,15 @@ EncodedTexture encode(const TextureSource& source, const Ktx2Options& options) {
     bytes.resize(layout.level_offsets[k]);  // padding
     bytes.insert(bytes.end(), levels[k].bytes.begin(), levels[k].bytes.end());
   }
+}
+
+EncodedTexture encode(const TextureSource& source, const Ktx2Options& options) {
+  check_options(options);
+  EncodedTexture texture;
+  texture.stored_scale = texture_scale(source, options.format, options.range, options.stored_scale);
+  const std::vector<EncodedLevel> levels = encode_levels(source, options, texture);
+  assemble(texture.bytes, source, ktx2_format(options.format), options.zstd_level > 0, levels,
+           key_value_data(options.keys, texture.stored_scale));
   return texture;
 }
 
@@ -169,6 +176,19 @@ EncodedTexture encode_ktx2(const CubeMips& cube, const Ktx2Options& options) {
 
 EncodedTexture encode_ktx2(const Image& image, const Ktx2Options& options) {
   return encode(texture_source(image), options);
+}
+
+std::vector<std::uint8_t> encode_ktx2_table(const Image& table,
+                                            const std::map<std::string, std::string>& keys) {
+  check_keys(keys);
+  const TextureSource source = texture_source(table);
+  std::vector<EncodedLevel> levels(1);
+  levels[0].plain_size = source.levels[0].size_bytes();
+  levels[0].bytes.resize(levels[0].plain_size);
+  std::memcpy(levels[0].bytes.data(), source.levels[0].data(), levels[0].plain_size);
+  std::vector<std::uint8_t> bytes;
+  assemble(bytes, source, ktx2_float_format(table.channels), false, levels, key_value_data(keys, 1));
+  return bytes;
 }
 
 }  // namespace welkin
