@@ -97,6 +97,7 @@ struct EnvironmentSampler::Tables {
   }
   void choose(std::span<const Vec2f> u, TexelChoice* choices) const {
     if (options.table == EnvironmentTable::inverse) return inverse.choose(u, choices);
+    if (options.table == EnvironmentTable::hierarchical) return quad.choose(u, choices);
     for (std::size_t i = 0; i < u.size(); ++i) choices[i] = choose(u[i]);
   }
   void prefetch_texel(int x, int y) const {

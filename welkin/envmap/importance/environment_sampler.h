@@ -17,7 +17,7 @@ enum class EnvironmentDensity {
 
 /// How a texel is found.
 enum class EnvironmentTable {
-  inverse,       ///< CDF of rows, then of the row's columns, by bisection: monotone, keeps stratification
+  inverse,       ///< CDF of rows, then of the row's columns, by cutpoints and bisection: monotone, keeps stratification
   alias,         ///< one look-up (Walker 1977, Vose 1991); scatters neighbouring numbers
   hierarchical,  ///< a quadtree of quantised splits: monotone, a quarter of the memory of `inverse`
 };

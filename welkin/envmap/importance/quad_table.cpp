@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <welkin/parallel/parallel_for.h>
+#include <welkin/parallel/prefetch.h>
 
 namespace welkin {
 namespace {
@@ -99,25 +100,46 @@ float QuadTable::weight(int x, int y) const {
   return row_factor_[y] * (channels_[0] * p[0] + channels_[1] * p[1] + channels_[2] * p[2]);
 }
 
-TexelChoice QuadTable::choose(Vec2f u) const {
-  TexelChoice choice = tiles_.choose(u);
+// From a tile to the block of 2 x 2 texels in it, and to the block's texel.
+void QuadTable::to_block(TexelChoice& choice) const {
   const Splits& table = splits(choice.x, choice.y);
-  Vec2f rest{std::min(choice.within.x, largest), std::min(choice.within.y, largest)};
-  float& p = choice.probability;
-  int x = choice.x, y = choice.y, node = 0;
-  for (int level = 0; level < 2; ++level) {
-    const int down = descend(decode_split(table[node]), rest.y, p);
-    const int right = descend(decode_split(table[node + 1 + down]), rest.x, p);
-    x = 2 * x + right;
-    y = 2 * y + down;
+  choice.within = {std::min(choice.within.x, largest), std::min(choice.within.y, largest)};
+  for (int level = 0, node = 0; level < 2; ++level) {
+    const int down = descend(decode_split(table[node]), choice.within.y, choice.probability);
+    const int right = descend(decode_split(table[node + 1 + down]), choice.within.x, choice.probability);
+    choice.x = 2 * choice.x + right;
+    choice.y = 2 * choice.y + down;
     node = 3 + 3 * (2 * down + right);
   }
-  x *= 2;
-  y *= 2;
+  choice.x *= 2;
+  choice.y *= 2;
+}
+
+void QuadTable::to_texel(TexelChoice& choice) const {
+  const int x = choice.x, y = choice.y;
   const float a = weight(x, y), b = weight(x + 1, y), c = weight(x, y + 1), d = weight(x + 1, y + 1);
-  const int down = descend(share_of(a + b, c + d), rest.y, p);
-  const int right = descend(down != 0 ? share_of(c, d) : share_of(a, b), rest.x, p);
-  return {x + right, y + down, rest, p};
+  const int down = descend(share_of(a + b, c + d), choice.within.y, choice.probability);
+  choice.x += descend(down != 0 ? share_of(c, d) : share_of(a, b), choice.within.x, choice.probability);
+  choice.y += down;
+}
+
+TexelChoice QuadTable::choose(Vec2f u) const {
+  TexelChoice choice = tiles_.choose(u);
+  to_block(choice);
+  to_texel(choice);
+  return choice;
+}
+
+void QuadTable::choose(std::span<const Vec2f> u, TexelChoice* choices) const {
+  const std::span<TexelChoice> all(choices, u.size());
+  tiles_.choose(u, choices);
+  for (const TexelChoice& choice : all) prefetch(splits(choice.x, choice.y).data());
+  for (TexelChoice& choice : all) {
+    to_block(choice);
+    prefetch(map_->at(choice.x, choice.y));
+    prefetch(map_->at(choice.x, std::min(choice.y + 1, map_->height - 1)));
+  }
+  for (TexelChoice& choice : all) to_texel(choice);
 }
 
 // The splits from the tile to a texel, rows and columns in turn, and which side was taken.

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <welkin/envmap/importance/inverse_table.h>
@@ -19,6 +20,8 @@ class QuadTable {
   explicit QuadTable(const TexelWeights& weights);
 
   TexelChoice choose(Vec2f u) const;
+  /// choose of each, of some dozen numbers at most: their waits for memory overlap.
+  void choose(std::span<const Vec2f> u, TexelChoice* choices) const;
   float probability(int x, int y) const;
   Vec2f invert(int x, int y, Vec2f within) const;
   std::size_t bytes() const {
@@ -33,6 +36,8 @@ class QuadTable {
   const Splits& splits(int tile_x, int tile_y) const {
     return splits_[static_cast<std::size_t>(tile_y) * tiles_wide_ + tile_x];
   }
+  void to_block(TexelChoice& choice) const;
+  void to_texel(TexelChoice& choice) const;
   float weight(int x, int y) const;
   Path path(int x, int y) const;
 
