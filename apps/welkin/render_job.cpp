@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -64,7 +65,7 @@ Scene load_scene(const RenderCommand& command) {
       throw CLI::ValidationError("--scene", error.what());
     }
   }
-  return read_scene(command.file);
+  return std::filesystem::exists(command.file) ? read_scene(command.file) : open_scene(command.file);
 }
 
 std::string camera_names(const Scene& scene) {

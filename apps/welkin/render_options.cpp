@@ -15,7 +15,7 @@ std::string scene_help() {
 }
 
 void add_scene_options(CLI::App& sub, RenderCommand& command) {
-  sub.add_option("FILE", command.file, "A scene: .gltf, .glb, .obj or .ply");
+  sub.add_option("FILE", command.file, "A scene: .gltf, .glb, .obj or .ply; or the name of a built-in one");
   sub.add_option("--scene", command.scene_name, scene_help());
   sub.add_option(
       "--env", command.environment,
@@ -64,7 +64,7 @@ void add_sampling_options(CLI::App& sub, RenderCommand& command) {
   sub.add_option("--max-spp", command.most_samples, "With --error: the most that a pixel gets")
       ->check(CLI::Range(16u, 1u << 24))
       ->capture_default_str();
-  sub.add_option("--integrator", command.integrator,
+  sub.add_option("--integrator,--shading", command.integrator,
                  "path, direct (no light between surfaces), ao (ambient occlusion), ibl (as a real-time "
                  "engine shades)")
       ->check(CLI::IsMember({"path", "direct", "ao", "ibl"}))
