@@ -1,0 +1,54 @@
+#pragma once
+#include <welkin/image/image.h>
+#include <welkin/realtime/gl/objects.h>
+
+// Textures and what is drawn into them. Row 0 of what is uploaded is the texture's t = 0. Pictures drawn by the camera
+// have their bottom row first, as OpenGL has it; read_pixels turns them so that row 0 is the top.
+
+namespace welkin {
+
+/// How texels are stored. Everything but `depth` can be drawn to where the driver has EXT_color_buffer_float (r8, rgba8 and srgb8 always).
+enum class TexelFormat { r8, rgba8, srgb8_alpha8, r16f, rg16f, rgba16f, r32f, rgba32f, depth };
+
+struct TextureDesc {
+  int width = 0, height = 0;
+  TexelFormat format = TexelFormat::rgba16f;
+  int levels = 1;  ///< 1 to log2(max(width, height)) + 1
+  bool linear =
+      true;  ///< else nearest; 32-bit floats need OES_texture_float_linear for linear, which not all drivers have
+  bool repeat = false;  ///< else clamped to the edge
+};
+
+/// A 2-D texture, not initialised. Throws Error where the driver refuses it.
+GlTexture make_texture(const TextureDesc& desc);
+/// A cube map of `desc.width`, `desc.height` ignored.
+GlTexture make_cube_texture(const TextureDesc& desc);
+
+/// An image of 1 to 4 channels as r, rg or rgba (missing colours 0, alpha 1) with its mip chain by the driver if wanted.
+/// Format: rgba16f; r32f and rgba32f keep floats as they are.
+GlTexture upload_image(const Image& image, TextureDesc desc, bool mipmaps);
+/// All levels of a cube of 3 channels. Throws Error for an empty one.
+GlTexture upload_cube(const CubeMips& cube, TexelFormat format = TexelFormat::rgba16f);
+
+/// One level of a cube that is in OpenGL, 3 channels: for tests and for comparing with the truth.
+Cube read_cube(const GlTexture& texture, int size, int level);
+
+/// What a pass draws into: up to four textures of one size and a depth buffer.
+struct RenderTarget {
+  int width = 0, height = 0;
+  GlFramebuffer framebuffer;
+  GlTexture colors[4];  ///< as many as were asked for
+  GlTexture depth;      ///< a depth texture (sampled by nearest); none if not asked for
+
+  void bind() const;  ///< as draw framebuffer, viewport = all of it
+};
+
+RenderTarget make_render_target(int width, int height, const TexelFormat* colors, int count, bool depth);
+
+/// The colour attachment `index` as floats of 4 channels, row 0 the top.
+Image read_pixels(const RenderTarget& target, int index = 0);
+
+/// Binds a texture to a unit.
+void bind_texture(int unit, GLenum target, const GlTexture& texture);
+
+}  // namespace welkin

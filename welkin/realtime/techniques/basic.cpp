@@ -1,0 +1,73 @@
+#include <welkin/realtime/techniques/technique_list.h>
+
+// Techniques that are one forward pass with the environment's maps: a fragment shader each.
+
+namespace welkin {
+namespace {
+
+class ForwardTechnique : public Technique {
+ public:
+  explicit ForwardTechnique(const char* fragment_file, const char* vertex_file = "mesh.vert")
+      : program_(vertex_file, fragment_file), name_(fragment_file) {}
+
+  void draw(const Frame& frame, const ParameterValues&) override {
+    const PassTimer::Scope timed(frame.timer, name_);
+    program_.use();
+    set_environment(program_, frame.environment);
+    draw_scene(program_, frame.scene, frame.view);
+  }
+
+ private:
+  Program program_;
+  const char* name_;
+};
+
+template <const char* const& fragment_file>
+std::unique_ptr<Technique> make_forward() {
+  return std::make_unique<ForwardTechnique>(fragment_file);
+}
+
+void make_mirrors(Scene& scene) {
+  for (Material& material : scene.materials) {
+    material.model = MaterialModel::mirror;
+    material.base_color = {1, 1, 1};
+  }
+}
+
+void make_diffuse(Scene& scene) {
+  for (Material& material : scene.materials) material.model = MaterialModel::lambert;
+}
+
+constexpr const char* mirror_file = "mirror.frag";
+constexpr const char* irradiance_file = "irradiance_map.frag";
+constexpr const char* prefiltered_file = "prefiltered_ggx.frag";
+
+constexpr TechniqueInfo table[] = {
+    {"mirror",
+     "every surface a mirror: one look-up by the reflected view",
+     "Miller & Hoffman 1984",
+     Truth::unshadowed,
+     {},
+     make_forward<mirror_file>,
+     make_mirrors},
+    {"irradiance-map",
+     "every surface diffuse: one look-up by the normal",
+     "Greene 1986",
+     Truth::unshadowed,
+     {},
+     make_forward<irradiance_file>,
+     make_diffuse},
+    {"prefiltered-ggx",
+     "glossy by the GGX-filtered chain and the DFG table, diffuse by the irradiance map",
+     "Karis 2013",
+     Truth::unshadowed,
+     {},
+     make_forward<prefiltered_file>,
+     nullptr},
+};
+
+}  // namespace
+
+std::span<const TechniqueInfo> basic_techniques() { return table; }
+
+}  // namespace welkin

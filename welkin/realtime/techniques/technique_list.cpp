@@ -1,0 +1,16 @@
+#include <welkin/realtime/techniques/technique_list.h>
+
+#include <vector>
+
+namespace welkin {
+
+std::span<const TechniqueInfo> techniques() {
+  static const std::vector<TechniqueInfo> all = [] {
+    std::vector<TechniqueInfo> list;
+    for (const auto family : {basic_techniques()}) list.insert(list.end(), family.begin(), family.end());
+    return list;
+  }();
+  return all;
+}
+
+}  // namespace welkin

@@ -1,0 +1,11 @@
+#pragma once
+#include <welkin/realtime/technique.h>
+
+// One function a technique or family: its rows of the table. technique_list.cpp puts them together.
+
+namespace welkin {
+
+std::span<const TechniqueInfo>
+basic_techniques();  ///< basic.cpp: mirror, irradiance-map, prefiltered-ggx, ...
+
+}  // namespace welkin
