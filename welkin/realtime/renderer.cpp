@@ -116,6 +116,9 @@ const Camera& Renderer::camera() const { return state_->camera; }
 int Renderer::accumulated() const { return state_->accumulated; }
 const RenderTarget& Renderer::picture() const { return state_->picture; }
 Image Renderer::read_picture() const { return read_pixels(state_->picture); }
+Cube Renderer::captured_environment() const {
+  return state_->technique ? state_->technique->captured_environment() : Cube{};
+}
 PassTimer& Renderer::timer() { return state_->timer; }
 
 void Renderer::draw() {

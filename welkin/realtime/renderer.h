@@ -50,6 +50,9 @@ class Renderer {
   /// Frames that were drawn since anything changed, for progressive techniques.
   int accumulated() const;
 
+  /// Of the technique, after draw(); empty but for Truth::dynamic.
+  Cube captured_environment() const;
+
   const RenderTarget& picture() const;
   Image read_picture() const;  ///< 4 channels, alpha 1 where there is a surface, row 0 the top
   /// Draws the picture, tone-mapped, into what is bound as draw framebuffer (0 is the screen) at its viewport.

@@ -63,6 +63,9 @@ class Technique {
   virtual void draw(const Frame& frame, const ParameterValues& values) = 0;
   /// Whether the picture gets better when the same frame is drawn again.
   virtual bool progressive() const { return false; }
+  /// The radiance that lit the last frame, 3 channels, towards directions of the world (any rotation of the environment is in it): what the truth
+  /// of Truth::dynamic is lit by. Empty before the first frame and for techniques of other truths. Needs the context.
+  virtual Cube captured_environment() const { return {}; }
 };
 
 struct TechniqueInfo {
