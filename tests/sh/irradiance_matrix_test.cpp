@@ -37,7 +37,7 @@ TEST(IrradianceMatrix, HasThePublishedConstants) {
   const double c1 = 0.429043, c2 = 0.511664, c3 = 0.743125, c4 = 0.886227, c5 = 0.247708;
   ShCoefficients radiance(2, 3);
   for (int i = 0; i < 9; ++i) radiance.values[3 * i + 1] = i + 1;  // green: L_00 = 1, L_1-1 = 2, ... L_22 = 9
-  const Matrix4 m = irradiance_matrices_from_radiance(radiance)[1];
+  const QuadraticForm m = irradiance_matrices_from_radiance(radiance)[1];
   const double expected[4][4] = {{9 * c1, 5 * c1, 8 * c1, 4 * c2},
                                  {5 * c1, -9 * c1, 6 * c1, 2 * c2},
                                  {8 * c1, 6 * c1, 7 * c3, 3 * c2},
@@ -45,7 +45,7 @@ TEST(IrradianceMatrix, HasThePublishedConstants) {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
       EXPECT_NEAR(m[i][j], expected[i][j], 1.2e-5);  // c3 is printed 1.2e-6 off, times 9
-  EXPECT_EQ(irradiance_matrices_from_radiance(radiance)[0], Matrix4{});
+  EXPECT_EQ(irradiance_matrices_from_radiance(radiance)[0], QuadraticForm{});
 }
 
 TEST(IrradianceMatrix, IsTheFunctionAndComesBack) {

@@ -23,7 +23,7 @@ std::array<Polynomial, 3> polynomials(const IrradianceMatrices& matrices) {
   const auto f = [](double v) { return static_cast<float>(v); };
   std::array<Polynomial, 3> out;
   for (int c = 0; c < 3; ++c) {
-    const Matrix4& m = matrices[c];
+    const QuadraticForm& m = matrices[c];
     out[c] = {f(m[0][0]),     f(2 * m[0][1]), f(2 * m[0][2]), f(2 * m[0][3]), f(m[1][1]),
               f(2 * m[1][2]), f(2 * m[1][3]), f(m[2][2]),     f(2 * m[2][3]), f(m[3][3])};
   }
@@ -83,7 +83,7 @@ IrradianceMatrices irradiance_matrices_from_radiance(const ShCoefficients& radia
 ShCoefficients irradiance_from_matrices(const IrradianceMatrices& matrices) {
   ShCoefficients irradiance(2, 3);
   for (int c = 0; c < 3; ++c) {
-    const Matrix4& m = matrices[c];
+    const QuadraticForm& m = matrices[c];
     const double third = (m[0][0] + m[1][1] + m[2][2]) / 3;
     std::array<double, 9> f;
     sh_from_quadric({m[0][0] - third,
@@ -100,7 +100,7 @@ ShCoefficients irradiance_from_matrices(const IrradianceMatrices& matrices) {
   return irradiance;
 }
 
-double evaluate(const Matrix4& matrix, Vec3 normal) {
+double evaluate(const QuadraticForm& matrix, Vec3 normal) {
   const double n[4] = {normal.x, normal.y, normal.z, 1};
   double sum = 0;
   for (int i = 0; i < 4; ++i)

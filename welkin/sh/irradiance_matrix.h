@@ -10,10 +10,10 @@
 
 namespace welkin {
 
-using Matrix4 = std::array<std::array<double, 4>, 4>;  // rows; symmetric here
+using QuadraticForm = std::array<std::array<double, 4>, 4>;  // rows; symmetric here
 
 /// Red, green, blue.
-using IrradianceMatrices = std::array<Matrix4, 3>;
+using IrradianceMatrices = std::array<QuadraticForm, 3>;
 
 /// The matrices of nine irradiance coefficients (the cosine is in them; E, not E / pi: for E / pi pass coefficients of
 /// E / pi). On |n| = 1 a multiple of diag(1, 1, 1, -1) changes nothing; the form is fixed as in equation 12: the first
@@ -30,7 +30,7 @@ IrradianceMatrices irradiance_matrices_from_radiance(const ShCoefficients& radia
 ShCoefficients irradiance_from_matrices(const IrradianceMatrices& matrices);
 
 /// E(n) of one channel; n is unit length.
-double evaluate(const Matrix4& matrix, Vec3 normal);
+double evaluate(const QuadraticForm& matrix, Vec3 normal);
 
 /// Irradiance per vertex: rgb[i] = E(normals[i]) for unit normals; both spans have one size. Single precision: off by
 /// about 3e-7 of the largest entry. Vectorised; the second is the plain loop that it is tested against.

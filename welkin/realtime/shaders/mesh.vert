@@ -1,23 +1,4 @@
 // Vertices of a mesh to the world and to the screen.
-layout(location = 0) in vec3 vertex_position;
-layout(location = 1) in vec3 vertex_normal;
-layout(location = 2) in vec4 vertex_tangent;  // w: the sign of the bitangent
-layout(location = 3) in vec4 vertex_texcoords;  // xy: set 0, zw: set 1
+#include "mesh_vertex.glsl"
 
-uniform mat4 to_world;
-uniform mat3 normal_to_world;
-uniform mat4 world_to_clip;
-
-out vec3 world_position;
-out vec3 world_normal;
-out vec4 world_tangent;
-out vec4 texcoords;
-
-void main() {
-  vec4 position = to_world * vec4(vertex_position, 1.0);
-  world_position = position.xyz;
-  world_normal = normal_to_world * vertex_normal;
-  world_tangent = vec4(mat3(to_world) * vertex_tangent.xyz, vertex_tangent.w);
-  texcoords = vertex_texcoords;
-  gl_Position = world_to_clip * position;
-}
+void main() { place_vertex(); }

@@ -1,26 +1,10 @@
+#include <welkin/realtime/techniques/forward_technique.h>
 #include <welkin/realtime/techniques/technique_list.h>
 
 // Techniques that are one forward pass with the environment's maps: a fragment shader each.
 
 namespace welkin {
 namespace {
-
-class ForwardTechnique : public Technique {
- public:
-  explicit ForwardTechnique(const char* fragment_file, const char* vertex_file = "mesh.vert")
-      : program_(vertex_file, fragment_file), name_(fragment_file) {}
-
-  void draw(const Frame& frame, const ParameterValues&) override {
-    const PassTimer::Scope timed(frame.timer, name_);
-    program_.use();
-    set_environment(program_, frame.environment);
-    draw_scene(program_, frame.scene, frame.view);
-  }
-
- private:
-  Program program_;
-  const char* name_;
-};
 
 template <const char* const& fragment_file>
 std::unique_ptr<Technique> make_forward() {

@@ -7,7 +7,8 @@ namespace welkin {
 std::span<const TechniqueInfo> techniques() {
   static const std::vector<TechniqueInfo> all = [] {
     std::vector<TechniqueInfo> list;
-    for (const auto family : {basic_techniques()}) list.insert(list.end(), family.begin(), family.end());
+    for (const auto family : {basic_techniques(), harmonic_techniques()})
+      list.insert(list.end(), family.begin(), family.end());
     return list;
   }();
   return all;

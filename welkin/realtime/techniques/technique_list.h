@@ -7,5 +7,6 @@ namespace welkin {
 
 std::span<const TechniqueInfo>
 basic_techniques();  ///< basic.cpp: mirror, irradiance-map, prefiltered-ggx, ...
+std::span<const TechniqueInfo> harmonic_techniques();  ///< harmonics.cpp: sh-pixel, sh-matrix
 
 }  // namespace welkin
