@@ -7,7 +7,11 @@ namespace welkin {
 std::span<const TechniqueInfo> techniques() {
   static const std::vector<TechniqueInfo> all = [] {
     std::vector<TechniqueInfo> list;
-    for (const auto family : {basic_techniques(), harmonic_techniques()})
+    for (const auto family : {
+             basic_techniques(),
+             harmonic_techniques(),
+             occlusion_techniques(),
+         })
       list.insert(list.end(), family.begin(), family.end());
     return list;
   }();
