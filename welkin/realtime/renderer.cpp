@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include <welkin/error.h>
 
 namespace welkin {
@@ -60,16 +62,16 @@ Renderer::Renderer(const RendererOptions& options) : state_(std::make_unique<Sta
 Renderer::~Renderer() = default;
 
 void Renderer::set_scene(Scene scene) {
+  Scene prepared = prepared_for(scene, state_->info);
+  state_->scene = upload_scene(prepared);  // where it throws, the scene before stays
   state_->source = std::move(scene);
-  state_->prepared = prepared_for(state_->source, state_->info);
-  state_->scene.reset();
-  state_->scene = upload_scene(state_->prepared);
+  state_->prepared = std::move(prepared);
   state_->accumulated = 0;
 }
 
 void Renderer::set_environment(std::shared_ptr<const EnvironmentData> light) {
+  state_->environment = upload_environment(light->maps, state_->options.environment);
   state_->light = std::move(light);
-  state_->environment = upload_environment(state_->light->maps, state_->options.environment);
   state_->environment.rotation_radians = state_->rotation_radians;
   state_->accumulated = 0;
 }
@@ -83,10 +85,9 @@ void Renderer::set_rotation(float degrees) {
 void Renderer::set_technique(const TechniqueInfo& technique, ParameterValues values) {
   if (state_->info != &technique || !state_->technique) {
     const auto before = state_->info != nullptr ? state_->info->prepare_scene : nullptr;
-    state_->technique.reset();
-    state_->technique = technique.make();
+    state_->technique = technique.make();  // where it throws, the technique before stays
     state_->info = &technique;
-    if (state_->scene && before != technique.prepare_scene) set_scene(std::move(state_->source));
+    if (state_->scene && before != technique.prepare_scene) set_scene(state_->source);
   }
   state_->values = std::move(values);
   state_->accumulated = 0;
@@ -98,6 +99,9 @@ void Renderer::set_camera(const Camera& camera) {
 }
 
 void Renderer::resize(int width, int height) {
+  if (width < 1 || height < 1 || width > max_picture_size || height > max_picture_size)
+    throw Error(fmt::format("a picture of {} x {} pixels cannot be drawn: each side is 1 to {}", width,
+                            height, max_picture_size));
   if (state_->picture.width == width && state_->picture.height == height) return;
   state_->picture = {};
   state_->picture = make_render_target(width, height, &state_->options.picture, 1, true);
@@ -114,6 +118,9 @@ const Scene& Renderer::prepared_scene() const { return state_->prepared; }
 const TechniqueInfo& Renderer::technique() const { return *state_->info; }
 const Camera& Renderer::camera() const { return state_->camera; }
 int Renderer::accumulated() const { return state_->accumulated; }
+bool Renderer::progressive() const {
+  return state_->technique != nullptr && state_->technique->progressive();
+}
 const RenderTarget& Renderer::picture() const { return state_->picture; }
 Image Renderer::read_picture() const { return read_pixels(state_->picture); }
 Cube Renderer::captured_environment() const {

@@ -23,6 +23,9 @@ struct DisplayOptions {
   float white = 16;
 };
 
+/// Pixels along either side: what every OpenGL ES 3.0 driver can draw to that WebGL 2 runs on, and a bound on memory.
+inline constexpr int max_picture_size = 4096;
+
 class Renderer {
  public:
   explicit Renderer(const RendererOptions& options = {});
@@ -36,7 +39,8 @@ class Renderer {
   void set_rotation(float degrees);
   void set_technique(const TechniqueInfo& technique, ParameterValues values);
   void set_camera(const Camera& camera);
-  void resize(int width, int height);  ///< in pixels
+  /// In pixels. Throws Error for sizes below 1 or above max_picture_size.
+  void resize(int width, int height);
   void set_time(double seconds);
   bool show_background = true;
 
@@ -49,6 +53,8 @@ class Renderer {
   void draw();
   /// Frames that were drawn since anything changed, for progressive techniques.
   int accumulated() const;
+  /// Whether the technique goes on refining the picture while nothing changes.
+  bool progressive() const;
 
   /// Of the technique, after draw(); empty but for Truth::dynamic.
   Cube captured_environment() const;

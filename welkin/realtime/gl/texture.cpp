@@ -204,6 +204,22 @@ Image read_pixels(const RenderTarget& target, int index) {
   return image;
 }
 
+ByteImage read_bytes(const RenderTarget& target) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer.name());
+  std::vector<std::uint8_t> rgba(std::size_t{4} * target.width * target.height);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  check_gl("reading bytes");
+  ByteImage image(target.width, target.height, 3);
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* from =
+        rgba.data() + std::size_t{4} * target.width * static_cast<std::size_t>(image.height - 1 - y);
+    for (int x = 0; x < image.width; ++x) std::copy_n(from + std::size_t{4} * x, 3, image.at(x, y));
+  }
+  return image;
+}
+
 void bind_texture(int unit, GLenum target, const GlTexture& texture) {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(target, texture.name());

@@ -1,4 +1,5 @@
 #pragma once
+#include <welkin/image/byte_image.h>
 #include <welkin/image/image.h>
 #include <welkin/realtime/gl/objects.h>
 
@@ -47,6 +48,9 @@ RenderTarget make_render_target(int width, int height, const TexelFormat* colors
 
 /// The colour attachment `index` as floats of 4 channels, row 0 the top.
 Image read_pixels(const RenderTarget& target, int index = 0);
+
+/// The only colour attachment, of format rgba8, as bytes of 3 channels, row 0 the top.
+ByteImage read_bytes(const RenderTarget& target);
 
 /// Binds a texture to a unit.
 void bind_texture(int unit, GLenum target, const GlTexture& texture);
