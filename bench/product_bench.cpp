@@ -22,7 +22,7 @@ using namespace welkin;
 
 struct Point {
   Surface surface;
-  Frame frame;
+  LocalFrame frame;
   Vec3f view;
   const Scatter* scatter;
 };

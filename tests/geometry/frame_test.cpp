@@ -14,7 +14,7 @@ void expect_orthonormal(const Frame& frame) {
   EXPECT_NEAR(dot(cross(frame.tangent, frame.bitangent), frame.normal), 1, 1e-6);
 }
 
-TEST(Frame, IsOrthonormalAndRightHanded) {
+TEST(LocalFrame, IsOrthonormalAndRightHanded) {
   for (Vec3f normal :
        std::vector<Vec3f>{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {1, 2, -3}, {1e-4f, 0, -1}}) {
     expect_orthonormal(make_frame(normalized(normal)));
@@ -22,14 +22,14 @@ TEST(Frame, IsOrthonormalAndRightHanded) {
   }
 }
 
-TEST(Frame, KeepsTheTangentWhereItCan) {
+TEST(LocalFrame, KeepsTheTangentWhereItCan) {
   EXPECT_NEAR(make_frame({0, 0, 1}, {3, 0, 5}).tangent.x, 1, 1e-6);
   expect_orthonormal(make_frame({0, 1, 0}, {0, 7, 0}));
   expect_orthonormal(make_frame({0, 1, 0}, {NAN, 0, 0}));
 }
 
-TEST(Frame, ThereAndBack) {
-  const Frame frame = make_frame(normalized({1, -2, 0.5f}));
+TEST(LocalFrame, ThereAndBack) {
+  const LocalFrame frame = make_frame(normalized({1, -2, 0.5f}));
   const Vec3f back = frame.to_local(frame.to_world({0.2f, -0.4f, 0.6f}));
   EXPECT_NEAR(back.x, 0.2f, 1e-6);
   EXPECT_NEAR(back.y, -0.4f, 1e-6);

@@ -79,7 +79,7 @@ TEST(ProductSampler, CandidatesFollowTheDensity) {
   for (const Case& c : cases()) {
     if (c.scatter.alpha_x < 0.03f) continue;
     std::vector<double> seen(800), expected(800);
-    const Frame frame = make_frame(c.normal);
+    const LocalFrame frame = make_frame(c.normal);
     for (int k = 0; k < 800; ++k) {
       // Texels that the horizon cuts are left out of both.
       const Vec3f middle = float_direction((k % 40 + 0.5) / 40, (k / 40 + 0.5) / 20);
@@ -106,7 +106,7 @@ TEST(ProductSampler, CandidatesFollowTheDensity) {
 
 // Against a sum over directions, 12 x 12 a texel, at least 384 across.
 double reflected_light(const Image& map, const Case& c) {
-  const Frame frame = make_frame(c.normal);
+  const LocalFrame frame = make_frame(c.normal);
   const int fine = std::max(4, 384 / map.width), wide = map.width * fine, high = map.height * fine;
   double sum = 0;
   for (int y = 0; y < high; ++y) {
@@ -126,7 +126,7 @@ TEST(ProductSampler, IsUnbiasedTogetherWithTheBrdf) {
     const ProductSampler product(environment);
     for (const Case& c : cases()) {
       const double truth = reflected_light(map, c);
-      const Frame frame = make_frame(c.normal);
+      const LocalFrame frame = make_frame(c.normal);
       UnitNumbers numbers(41);
       double sum = 0, square = 0;
       constexpr int samples = 40'000;

@@ -6,7 +6,7 @@
 namespace welkin {
 
 /// A right-handed orthonormal frame: tangent x bitangent = normal. Local x, y, z are along tangent, bitangent, normal.
-struct Frame {
+struct LocalFrame {
   Vec3f tangent{1, 0, 0}, bitangent{0, 1, 0}, normal{0, 0, 1};
 
   Vec3f to_local(Vec3f world) const {
@@ -17,7 +17,7 @@ struct Frame {
 
 /// A frame about a unit normal, without a preferred tangent and continuous but across normal.z = 0 (Duff et al. 2017,
 /// "Building an orthonormal basis, revisited", listing 3).
-inline Frame make_frame(Vec3f normal) {
+inline LocalFrame make_frame(Vec3f normal) {
   const float sign = std::copysign(1.0f, normal.z);
   const float a = -1 / (sign + normal.z), b = normal.x * normal.y * a;
   return {{1 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x},
@@ -27,7 +27,7 @@ inline Frame make_frame(Vec3f normal) {
 
 /// A frame about a unit normal whose tangent is the part of `tangent` that is perpendicular to it; make_frame(normal)
 /// where nothing is left of it or it is not finite.
-inline Frame make_frame(Vec3f normal, Vec3f tangent) {
+inline LocalFrame make_frame(Vec3f normal, Vec3f tangent) {
   const Vec3f across = tangent - dot(tangent, normal) * normal;
   const float squared = dot(across, across);
   if (!(squared > 1e-12f * dot(tangent, tangent)) || !(squared < INFINITY)) return make_frame(normal);

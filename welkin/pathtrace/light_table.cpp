@@ -272,7 +272,7 @@ LightSample LightTable::from_sphere(Vec3f from, const SphereLight& light, Vec2f 
   const float squared = dot(way, way), radius = light.radius;
   const bool inside = is_inside(from, light);
   const float cap = inside ? 2.0f : one_minus_cosine(radius, squared);
-  const Frame frame = make_frame(squared > 0 ? normalized(way) : Vec3f{0, 1, 0});
+  const LocalFrame frame = make_frame(squared > 0 ? normalized(way) : Vec3f{0, 1, 0});
   LightSample sample;
   sample.direction = frame.to_world(warp_to_cone(u, cap));
   sample.pdf = cone_pdf(cap);

@@ -128,7 +128,7 @@ struct ProductSampler::Tables {
   struct Mixture {
     Lobe glossy, diffuse;
   };
-  Mixture mixture(const Prepared& prepared, const Frame& frame) const;
+  Mixture mixture(const Prepared& prepared, const LocalFrame& frame) const;
   float tile_chance(const Lobe& lobe, int tile_column, int tile_row) const;
   float lobe_pdf(const Mixture& mixture, EnvironmentSampler::Texel texel) const;
   struct Found {
@@ -148,7 +148,7 @@ struct ProductSampler::Tables {
 };
 
 ProductSampler::Tables::Mixture ProductSampler::Tables::mixture(const Prepared& prepared,
-                                                                const Frame& frame) const {
+                                                                const LocalFrame& frame) const {
   const Profile profile = profile_of(prepared);
   Mixture m;
   if (profile.diffuse > 0) {
@@ -222,7 +222,7 @@ ProductSampler::~ProductSampler() = default;
 ProductSampler::ProductSampler(ProductSampler&&) noexcept = default;
 ProductSampler& ProductSampler::operator=(ProductSampler&&) noexcept = default;
 
-ProductSample ProductSampler::sample(const Scatter& scatter, const Frame& frame, Vec3f view, Vec2f u,
+ProductSample ProductSampler::sample(const Scatter& scatter, const LocalFrame& frame, Vec3f view, Vec2f u,
                                      float keep, Vec3f along, float& density_along) const {
   const Tables& tables = *tables_;
   density_along = 0;

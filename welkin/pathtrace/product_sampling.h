@@ -38,7 +38,7 @@ class ProductSampler {
   ///   sample.light V(sample.direction) + weight L(along) V(along) p_brdf / (p_brdf + density_along)
   /// is an unbiased estimate of the light of the environment that the surface reflects, V = 1 where nothing is in the way.
   /// Of delta lobes nothing is sampled, and density_along is 0: the mirrored ray finds all.
-  ProductSample sample(const Scatter& scatter, const Frame& frame, Vec3f view, Vec2f u, float keep,
+  ProductSample sample(const Scatter& scatter, const LocalFrame& frame, Vec3f view, Vec2f u, float keep,
                        Vec3f along, float& density_along) const;
   std::size_t table_bytes() const;
 

@@ -77,7 +77,7 @@ Vec3f mapped_normal(const Scene& scene, const Material& m, const Surface& surfac
   const Texel texel = look_up(scene, m.normal_texture, surface.texcoords);
   const float x = m.normal_scale * (2 * texel[0] - 1), y = m.normal_scale * (2 * texel[1] - 1);
   const float z = 2 * texel[2] - 1;
-  const Frame& f = surface.shading;
+  const LocalFrame& f = surface.shading;
   const Vec3f normal = x * f.tangent + (surface.bitangent_sign * y) * f.bitangent + z * f.normal;
   const float squared = dot(normal, normal);
   return squared > 1e-12f ? (1 / std::sqrt(squared)) * normal : f.normal;

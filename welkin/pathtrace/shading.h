@@ -33,9 +33,9 @@ class ShadingMaterials {
 /// A surface seen from one side, ready to reflect.
 struct ShadingPoint {
   Surface surface;
-  Frame frame;   ///< its normal is on the viewer's side, normal map included
-  Vec3f facing;  ///< the geometric normal, on the viewer's side
-  Vec3f view;    ///< local, towards the viewer; z > 0
+  LocalFrame frame;  ///< its normal is on the viewer's side, normal map included
+  Vec3f facing;      ///< the geometric normal, on the viewer's side
+  Vec3f view;        ///< local, towards the viewer; z > 0
   const Scatter* scatter = nullptr;
   Scatter textured;  ///< what `scatter` points to where textures count
 

@@ -10,7 +10,8 @@ struct Surface {
   float position_error =
       0;                   ///< how far from the true surface it and what the tree makes of it may be, metres
   Vec3f geometric_normal;  ///< unit, of the front side (counter-clockwise or outside)
-  Frame shading;  ///< interpolated normal and tangent, before any normal map; on the geometric normal's side
+  /// Interpolated normal and tangent, before any normal map; on the geometric normal's side.
+  LocalFrame shading;
   float bitangent_sign = 1;  ///< a normal map's green points along bitangent_sign x shading.bitangent
   Vec2f texcoords[2];
   int material = 0;

@@ -46,7 +46,7 @@ struct Polar {
     const double flat = std::hypot(axis.x, axis.y);
     cosine = axis.z;
     sine = flat;
-    const Frame frame = make_frame(axis, {0, 0, 1});
+    const LocalFrame frame = make_frame(axis, {0, 0, 1});
     up = flat > 1e-6 ? frame.tangent : make_frame(axis).tangent;
     across = cross(axis, up);
   }
