@@ -1,5 +1,6 @@
 #include <welkin/realtime/gpu_environment.h>
 
+#include <atomic>
 #include <cmath>
 
 namespace welkin {
@@ -16,7 +17,9 @@ GlTexture upload_dfg(const DfgTable& table) {
 }  // namespace
 
 GpuEnvironment upload_environment(const IblSet& set, TexelFormat format) {
+  static std::atomic<std::uint64_t> uploads{0};
   GpuEnvironment gpu;
+  gpu.upload = ++uploads;
   gpu.environment = upload_cube(set.environment, format);
   gpu.specular = upload_cube(set.specular, format);
   gpu.irradiance = upload_cube({{set.irradiance}}, format);

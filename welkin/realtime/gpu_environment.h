@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 
 #include <welkin/envmap/ibl.h>
 #include <welkin/realtime/gl/program.h>
@@ -16,7 +17,9 @@ struct GpuEnvironment {
   int environment_size = 0, environment_levels = 0, specular_size = 0, specular_levels = 0,
       irradiance_size = 0;
   std::array<Vec3f, 9> radiance_sh;  ///< index l(l+1)+m
-  float rotation_radians = 0;        ///< about +Y, right-handed, of the environment in the world
+  std::uint64_t upload =
+      0;  ///< a number that no other upload of this process has: for what techniques make of the maps
+  float rotation_radians = 0;  ///< about +Y, right-handed, of the environment in the world
 };
 
 /// From a set made with LevelLaw::linear, KernelKind::ggx and DfgForm::scale_bias. rgba16f clamps above 65504; rgba32f needs the driver's

@@ -31,6 +31,8 @@ struct Surface {
   vec3 position, view;       // world; view: unit, towards the eye
   vec3 normal, geometric_normal, tangent, bitangent;  // unit; the shading normal faces the viewer
   vec2 normal_uv;            // where the normal map is looked up
+  vec3 base_color;
+  float metallic;            // of KIND_COATED
   vec3 diffuse;              // albedo of the diffuse part, before what the coat reflects is taken off
   vec3 f0, f90;              // of the glossy part
   vec2 coat;                 // F0 and F90 over the diffuse part
@@ -96,6 +98,8 @@ Surface surface_of_fragment() {
     roughness *= channel_of(texture(roughness_map, map_uv(2, material_texcoord.z)), material_roughness_channel);
   if (base.a < material_alpha_cutoff) discard;
 
+  s.base_color = base.rgb;
+  s.metallic = metallic;
   s.coat = material_kind == KIND_COATED ? material_coat : vec2(0.0);
   s.diffuse = material_kind == KIND_COATED ? (1.0 - metallic) * base.rgb : material_kind == KIND_DIFFUSE ? base.rgb : vec3(0.0);
   s.f0 = material_kind == KIND_COATED ? mix(vec3(s.coat.x), base.rgb, metallic) : base.rgb * material_f0;

@@ -11,6 +11,7 @@ std::span<const TechniqueInfo> techniques() {
              basic_techniques(),
              harmonic_techniques(),
              occlusion_techniques(),
+             importance_techniques(),
          })
       list.insert(list.end(), family.begin(), family.end());
     return list;

@@ -7,7 +7,8 @@ namespace welkin {
 
 std::span<const TechniqueInfo>
 basic_techniques();  ///< basic.cpp: mirror, irradiance-map, prefiltered-ggx, ...
-std::span<const TechniqueInfo> harmonic_techniques();  ///< harmonics.cpp: sh-pixel, sh-matrix
+std::span<const TechniqueInfo> harmonic_techniques();    ///< harmonics.cpp: sh-pixel, sh-matrix
+std::span<const TechniqueInfo> importance_techniques();  ///< importance.cpp: importance, filtered-importance
 
 std::span<const TechniqueInfo> occlusion_techniques();  ///< occlusion.cpp: ssao-sphere, gtao, ...
 

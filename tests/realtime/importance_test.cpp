@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <welkin/image/z_test.h>
+#include <welkin/realtime/gl/headless_context.h>
+
+#include "tests/oracles/chi_square.h"
+#include "tests/realtime/shading_truth.h"
+
+// `importance` against sums over the whole environment in double.
+
+namespace welkin {
+namespace {
+
+constexpr int width = 14, height = 14, replicates = 8;
+
+// Dim and coloured, with a sun of four texels that has a third of the light.
+Image sun_map() {
+  Image map(32, 16);
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      float* p = map.at(x, y);
+      p[0] = 0.3f + 0.02f * static_cast<float>(y);
+      p[1] = 0.4f;
+      p[2] = 0.2f + 0.015f * static_cast<float>(x % 16);
+    }
+  for (int y = 4; y < 6; ++y)
+    for (int x = 21; x < 23; ++x) std::fill_n(map.at(x, y), 3, 30.0f);
+  return map;
+}
+
+struct NamedMaterial {
+  const char* name;
+  Material material;
+};
+
+std::vector<NamedMaterial> materials() {
+  Material plastic, metal, mixed, single, coated, diffuse;
+  plastic.metallic = 0;
+  plastic.base_color = {0.7f, 0.3f, 0.2f};
+  plastic.perceptual_roughness = 0.5f;
+  metal.base_color = {0.9f, 0.7f, 0.4f};
+  metal.perceptual_roughness = 0.6f;
+  mixed = plastic;
+  mixed.metallic = 0.5f;
+  mixed.perceptual_roughness = 0.8f;
+  single = metal;
+  single.compensated = false;
+  coated = plastic;
+  coated.model = MaterialModel::coated_diffuse;
+  diffuse = plastic;
+  diffuse.model = MaterialModel::lambert;
+  return {{"plastic", plastic},          {"metal", metal},   {"mixed", mixed},
+          {"single scattering", single}, {"coated", coated}, {"diffuse", diffuse}};
+}
+
+// Pixels that see the sphere at more than 17 degrees from its silhouette, where the sphere of triangles is the sphere.
+struct TruthPicture {
+  std::vector<std::size_t> pixels;
+  Image radiance;  // as many x 1
+};
+
+TruthPicture truth_of(const Scene& scene, const Image& map) {
+  const RenderScene traced(scene, nullptr);
+  TruthPicture truth;
+  std::vector<float> values;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto point = oracle::point_at_pixel(traced, scene.cameras[0], {width, height}, x, y);
+      if (!point || point->view.z < 0.3f) continue;
+      truth.pixels.push_back(static_cast<std::size_t>(y) * width + x);
+      for (const double v : oracle::reflected_by_sums(*point, map, 6))
+        values.push_back(static_cast<float>(v));
+    }
+  truth.radiance = Image(static_cast<int>(truth.pixels.size()), 1);
+  truth.radiance.pixels = values;
+  return truth;
+}
+
+// The pixels of `truth` after `frames` frames.
+Image converged(Renderer& renderer, const std::string& choice, int frames, const TruthPicture& truth) {
+  const TechniqueChoice chosen = parse_technique(choice);
+  renderer.set_technique(*chosen.technique, chosen.values);
+  for (int i = 0; i < frames; ++i) renderer.draw();
+  const Image picture = renderer.read_picture();
+  Image picked(truth.radiance.width, 1);
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+    std::copy_n(&picture.pixels[4 * truth.pixels[i]], 3, &picked.pixels[3 * i]);
+  return picked;
+}
+
+struct Replicated {
+  Image mean, standard_error;
+};
+
+Replicated replicated(Renderer& renderer, const std::string& choice, int frames, const TruthPicture& truth) {
+  Replicated result{Image(truth.radiance.width, 1), Image(truth.radiance.width, 1)};
+  std::vector<double> sum(result.mean.pixels.size()), squares(result.mean.pixels.size());
+  for (int seed = 1; seed <= replicates; ++seed) {
+    const Image picture = converged(renderer, choice + ",seed=" + std::to_string(seed), frames, truth);
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      sum[i] += picture.pixels[i];
+      squares[i] += double{picture.pixels[i]} * picture.pixels[i];
+    }
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    const double mean = sum[i] / replicates;
+    const double variance = (squares[i] - sum[i] * mean) / (replicates - 1);
+    result.mean.pixels[i] = static_cast<float>(mean);
+    result.standard_error.pixels[i] = static_cast<float>(std::sqrt(std::max(variance, 1e-14) / replicates));
+  }
+  return result;
+}
+
+void expect_equal(const Replicated& measured, const Image& truth, const std::string& what) {
+  const ZTest z =
+      z_test({&measured.mean, &measured.standard_error, replicates - 1.0}, {&truth, nullptr, {}}, 1e-3);
+  EXPECT_TRUE(z.equal) << what << ": mean score " << z.mean_score << ", worst " << z.worst_score
+                       << " of probability " << z.worst_probability << ", mean square " << z.mean_square;
+}
+
+constexpr RendererOptions exact{TexelFormat::rgba32f, TexelFormat::rgba16f};
+
+void prepare(Renderer& renderer, const Scene& scene, const Image& map) {
+  renderer.set_technique(find_technique("importance"), initial_values(find_technique("importance")));
+  renderer.set_camera(scene.cameras[0]);
+  renderer.set_scene(scene);
+  renderer.set_environment(oracle::small_environment(map));
+  renderer.resize(width, height);
+}
+
+TEST(Importance, EveryStrategyAndTableGivesTheSumOverTheEnvironment) {
+  const HeadlessContext context;
+  {
+    const Image map = sun_map();
+    const Scene scene = oracle::one_sphere(materials()[2].material);
+    const TruthPicture truth = truth_of(scene, map);
+    ASSERT_GT(truth.pixels.size(), 80u);
+    Renderer renderer(exact);
+    prepare(renderer, scene, map);
+    // Few of these samples meet the sun, and scores are normal only where some do.
+    expect_equal(replicated(renderer, "importance:sampling=brdf,samples=64", 8, truth), truth.radiance,
+                 "brdf");
+    for (const char* sampling : {"environment", "mis"})
+      for (const char* table : {"inverse", "alias", "rows"})
+        for (const char* jacobian : {"sphere", "lecture"}) {
+          const std::string choice = std::string("importance:sampling=") + sampling + ",table=" + table +
+                                     ",jacobian=" + jacobian + ",samples=64";
+          expect_equal(replicated(renderer, choice, 1, truth), truth.radiance, choice);
+        }
+  }
+  for (const int living : living_gl_objects()) EXPECT_EQ(living, 0);
+}
+
+TEST(Importance, EveryMaterialGivesTheSumOverTheEnvironment) {
+  const HeadlessContext context;
+  const Image map = sun_map();
+  for (const NamedMaterial& entry : materials()) {
+    const Scene scene = oracle::one_sphere(entry.material);
+    const TruthPicture truth = truth_of(scene, map);
+    Renderer renderer(exact);
+    prepare(renderer, scene, map);
+    expect_equal(replicated(renderer, "importance:samples=64", 2, truth), truth.radiance, entry.name);
+  }
+}
+
+}  // namespace
+}  // namespace welkin
