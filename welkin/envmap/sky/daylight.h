@@ -62,10 +62,16 @@ class PreethamSky {
   /// Irradiance of a horizontal surface under this sky (no sun), W/m^2.
   Rgb horizontal_irradiance() const;
 
- private:
+  /// What a shader needs: (Y, x, y) = zenith (1 + a e^(b / cos_zenith)) (1 + c e^(d gamma) + e cos^2 gamma), each with its own
+  /// coefficients, gamma the angle to sun() (which stays on the horizon after sunset).
   struct Perez {
     double a, b, c, d, e;
   };
+  const std::array<Perez, 3>& perez() const { return perez_; }
+  const Rgb& zenith() const { return zenith_; }
+  Vec3 sun() const { return sun_; }
+
+ private:
   std::array<Perez, 3> perez_;  // for Y, x, y
   Rgb zenith_;                  // Y (W/(sr m^2)), x, y over the distribution's own value at the zenith
   Vec3 sun_;
