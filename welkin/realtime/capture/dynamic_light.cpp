@@ -69,7 +69,8 @@ View DynamicLight::view_of(const Frame& frame) const {
   View view = frame.view;
   const float distance = length(view.eye - surroundings_->probe());
   view.far_metres = std::max(view.far_metres, 1.01f * (distance + surroundings_->reach_metres()));
-  view.near_metres = std::min(view.near_metres, view.orthographic ? -view.far_metres : 1e-3f * view.far_metres);
+  // An orthographic camera's rays start in the plane of its eye.
+  view.near_metres = std::min(view.near_metres, view.orthographic ? 0.0f : 1e-3f * view.far_metres);
   const float n = view.near_metres, f = view.far_metres;
   view.view_to_clip.m[10] = view.orthographic ? 2 / (n - f) : (f + n) / (n - f);
   view.view_to_clip.m[14] = view.orthographic ? (f + n) / (n - f) : 2 * f * n / (n - f);
@@ -79,7 +80,8 @@ View DynamicLight::view_of(const Frame& frame) const {
 
 void DynamicLight::draw_around(const Frame& frame, const View& view) {
   const PassTimer::Scope timed(frame.timer, "surroundings");
-  draw_surroundings(around_, *surroundings_, {&irradiance_->cube(), options_.bounces > 0 ? 1.0f : 0.0f}, view);
+  draw_surroundings(around_, *surroundings_, {&irradiance_->cube(), options_.bounces > 0 ? 1.0f : 0.0f},
+                    view);
   if (options_.sky == 0) return;  // the caller's background
   sky_program_.use();
   set_environment(sky_program_, frame.environment);

@@ -38,7 +38,8 @@ void check_texture_size(const Image& image) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   if (std::max(image.width, image.height) > most)
-    throw Error("OpenGL: the look-up table of the projection has " + std::to_string(std::max(image.width, image.height)) +
+    throw Error("OpenGL: the look-up table of the projection has " +
+                std::to_string(std::max(image.width, image.height)) +
                 " texels along a side, and this driver's textures at most " + std::to_string(most) +
                 ": use a lower degree or a smaller capture");
 }
@@ -97,8 +98,8 @@ void ShProjector::make_tables() {
   table_buffer_ = GlBuffer::make();
   rows_buffer_ = GlBuffer::make();
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, table_buffer_.name());
-  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(4 * packed.pixels.size()), packed.pixels.data(),
-               GL_STATIC_DRAW);
+  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(4 * packed.pixels.size()),
+               packed.pixels.data(), GL_STATIC_DRAW);
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, rows_buffer_.name());
   glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(64) * groups_ * shape_.height, nullptr,
                GL_DYNAMIC_COPY);
@@ -153,7 +154,8 @@ ShCoefficients ShProjector::read() const {
   const Image pixels = read_pixels(coefficients_);
   ShCoefficients result(degree_, 3);
   for (int i = 0; i < count_; ++i)
-    for (int c = 0; c < 3; ++c) result.values[3 * static_cast<std::size_t>(i) + c] = static_cast<double>(pixels.at(i, 0)[c]);
+    for (int c = 0; c < 3; ++c)
+      result.values[3 * static_cast<std::size_t>(i) + c] = static_cast<double>(pixels.at(i, 0)[c]);
   return result;
 }
 

@@ -34,8 +34,8 @@ void clear_target() {
 
 }  // namespace
 
-void draw_surroundings(const Program& program, const Surroundings& surroundings, const CaptureAmbient& ambient,
-                       const View& view) {
+void draw_surroundings(const Program& program, const Surroundings& surroundings,
+                       const CaptureAmbient& ambient, const View& view) {
   if (surroundings.scene().draws.empty()) return;
   program.use();
   set_flares(program, surroundings.flares());
@@ -77,9 +77,11 @@ MapShape SphereCapture::shape() const {
   return map_shape(input_ == CaptureInput::cube ? Mapping::cube : Mapping::dual_paraboloid, size_);
 }
 
-void SphereCapture::draw_sky(const Program& program, const CaptureSky& sky, const Fullscreen& fullscreen) const {
+void SphereCapture::draw_sky(const Program& program, const CaptureSky& sky,
+                             const Fullscreen& fullscreen) const {
   // A texel of a paraboloid is twice as wide as one of a cube's.
-  const float texels = input_ == CaptureInput::paraboloid_warped ? 0.5f * static_cast<float>(size_) : static_cast<float>(size_);
+  const float texels = input_ == CaptureInput::paraboloid_warped ? 0.5f * static_cast<float>(size_)
+                                                                 : static_cast<float>(size_);
   const float wider = static_cast<float>(sky.environment->environment_size) / texels;
   set_environment(program, *sky.environment);
   set_sky(program, sky.day);
@@ -93,8 +95,8 @@ void SphereCapture::draw_sky(const Program& program, const CaptureSky& sky, cons
   glDepthFunc(GL_LESS);
 }
 
-void SphereCapture::draw_cube(const Surroundings& surroundings, const CaptureSky& sky, const CaptureAmbient& ambient,
-                              const Fullscreen& fullscreen) {
+void SphereCapture::draw_cube(const Surroundings& surroundings, const CaptureSky& sky,
+                              const CaptureAmbient& ambient, const Fullscreen& fullscreen) {
   const DepthRange range = depth_range(surroundings);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, size_, size_);
@@ -112,8 +114,8 @@ void SphereCapture::draw_cube(const Surroundings& surroundings, const CaptureSky
   }
 }
 
-void SphereCapture::draw_warped(const Surroundings& surroundings, const CaptureSky& sky, const CaptureAmbient& ambient,
-                                const Fullscreen& fullscreen) {
+void SphereCapture::draw_warped(const Surroundings& surroundings, const CaptureSky& sky,
+                                const CaptureAmbient& ambient, const Fullscreen& fullscreen) {
   const DepthRange range = depth_range(surroundings);
   paraboloids_.bind();
   clear_target();
@@ -133,8 +135,8 @@ void SphereCapture::draw_warped(const Surroundings& surroundings, const CaptureS
   }
 }
 
-void SphereCapture::capture(const Surroundings& surroundings, const CaptureSky& sky, const CaptureAmbient& ambient,
-                            const Fullscreen& fullscreen) {
+void SphereCapture::capture(const Surroundings& surroundings, const CaptureSky& sky,
+                            const CaptureAmbient& ambient, const Fullscreen& fullscreen) {
   if (input_ == CaptureInput::paraboloid_warped) {
     draw_warped(surroundings, sky, ambient, fullscreen);
   } else {
@@ -157,7 +159,8 @@ SphereMap SphereCapture::read_map() const {
   const Image turned = read_pixels(paraboloids_);
   SphereMap map = make_sphere_map(shape());
   for (int y = 0; y < map.image.height; ++y)
-    for (int x = 0; x < map.image.width; ++x) std::copy_n(turned.at(x, map.image.height - 1 - y), 3, map.image.at(x, y));
+    for (int x = 0; x < map.image.width; ++x)
+      std::copy_n(turned.at(x, map.image.height - 1 - y), 3, map.image.at(x, y));
   return map;
 }
 

@@ -9,8 +9,8 @@
 namespace welkin {
 
 enum class CaptureInput {
-  cube,               ///< six perspective pictures
-  paraboloid,         ///< two paraboloids, each texel the mean of four look-ups in the cube: exact but for resampling
+  cube,        ///< six perspective pictures
+  paraboloid,  ///< two paraboloids, each texel the mean of four look-ups in the cube: exact but for resampling
   paraboloid_warped,  ///< two paraboloids drawn at once by mapping vertices: as published, wrong for large triangles
 };
 
@@ -63,7 +63,7 @@ class SphereCapture {
 };
 
 /// Draws surroundings with a program that ends in surroundings.frag; for paraboloids the view's matrices do not matter.
-void draw_surroundings(const Program& program, const Surroundings& surroundings, const CaptureAmbient& ambient,
-                       const View& view);
+void draw_surroundings(const Program& program, const Surroundings& surroundings,
+                       const CaptureAmbient& ambient, const View& view);
 
 }  // namespace welkin

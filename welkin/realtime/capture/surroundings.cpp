@@ -21,7 +21,8 @@ float hashed(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return static_cast<float>((h ^ (h >> 15)) >> 8) / 16777216.0f;
 }
 
-constexpr Rgb flare_colors[flare_count] = {{1, 0.30f, 0.10f}, {1, 0.72f, 0.28f}, {0.25f, 1, 0.35f}, {0.45f, 0.6f, 1}};
+constexpr Rgb flare_colors[flare_count] = {
+    {1, 0.30f, 0.10f}, {1, 0.72f, 0.28f}, {0.25f, 1, 0.35f}, {0.45f, 0.6f, 1}};
 
 float smooth_step(double x) {
   const double t = x < 0 ? 0 : x > 1 ? 1 : x;
@@ -75,13 +76,15 @@ void add_wall(Scene& scene, Vec3f corner, Vec3f across, Vec3f up, int patches, i
     const Vec3f from = corner + (step * static_cast<float>(i % patches)) * across +
                        (step * static_cast<float>(i / patches)) * up;
     const Mesh patch = make_rectangle(from, step * across, step * up);
-    Mesh& wall = i == 0 ? scene.meshes[static_cast<std::size_t>(add_mesh(scene, patch, material))] : scene.meshes.back();
+    Mesh& wall = i == 0 ? scene.meshes[static_cast<std::size_t>(add_mesh(scene, patch, material))]
+                        : scene.meshes.back();
     if (i == 0) continue;
     const auto first = static_cast<std::uint32_t>(wall.positions.size());
     wall.positions.insert(wall.positions.end(), patch.positions.begin(), patch.positions.end());
     wall.normals.insert(wall.normals.end(), patch.normals.begin(), patch.normals.end());
     wall.tangents.insert(wall.tangents.end(), patch.tangents.begin(), patch.tangents.end());
-    wall.tangent_signs.insert(wall.tangent_signs.end(), patch.tangent_signs.begin(), patch.tangent_signs.end());
+    wall.tangent_signs.insert(wall.tangent_signs.end(), patch.tangent_signs.begin(),
+                              patch.tangent_signs.end());
     wall.texcoords[0].insert(wall.texcoords[0].end(), patch.texcoords[0].begin(), patch.texcoords[0].end());
     for (const auto& t : patch.triangles)
       wall.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
@@ -107,8 +110,10 @@ void add_wall_with_hole(Scene& scene, Vec3f corner, Vec3f across, Vec3f up, int 
 
 // Walls face inwards: across x up points into the room.
 void add_room(Scene& scene, Vec3f c, float r, float floor, int patches) {
-  const int white = add_material(scene, painted({0.75f, 0.72f, 0.68f})), wood = add_material(scene, painted({0.42f, 0.26f, 0.14f}));
-  const int red = add_material(scene, painted({0.6f, 0.12f, 0.08f})), blue = add_material(scene, painted({0.1f, 0.2f, 0.5f}));
+  const int white = add_material(scene, painted({0.75f, 0.72f, 0.68f})),
+            wood = add_material(scene, painted({0.42f, 0.26f, 0.14f}));
+  const int red = add_material(scene, painted({0.6f, 0.12f, 0.08f})),
+            blue = add_material(scene, painted({0.1f, 0.2f, 0.5f}));
   const float a = 2.4f * r, h = 3.4f * r;
   const Vec3f low{c.x - a, floor, c.z - a};
   const float w = 2 * a;
@@ -133,8 +138,8 @@ Mesh coarse_sphere() {
 
 // Blocks and lamps by turns.
 void add_carousel(Scene& scene) {
-  constexpr Rgb colors[carousel_things] = {{0.8f, 0.1f, 0.1f}, {9, 6, 3}, {0.1f, 0.7f, 0.15f},
-                                           {3, 6, 9},          {0.15f, 0.2f, 0.85f}, {8, 2, 6}};
+  constexpr Rgb colors[carousel_things] = {{0.8f, 0.1f, 0.1f},   {9, 6, 3}, {0.1f, 0.7f, 0.15f}, {3, 6, 9},
+                                           {0.15f, 0.2f, 0.85f}, {8, 2, 6}};
   for (int i = 0; i < carousel_things; ++i) {
     const bool lamp = i % 2 == 1;
     const int material = add_material(scene, lamp ? painted({0, 0, 0}, colors[i]) : painted(colors[i]));
@@ -168,7 +173,8 @@ Surroundings::Surroundings(SurroundingsKind kind, const Bounds& about, int patch
     add_carousel(scene);
   } else {
     const Mesh ball = coarse_sphere();
-    for (int i = 0; i < flare_count; ++i) add_instance(scene, add_mesh(scene, ball, add_material(scene, painted({0, 0, 0}))));
+    for (int i = 0; i < flare_count; ++i)
+      add_instance(scene, add_mesh(scene, ball, add_material(scene, painted({0, 0, 0}))));
     if (kind == SurroundingsKind::room) add_room(scene, probe_, size_, floor_, patches);
   }
   scene_ = upload_scene(scene);
@@ -190,7 +196,8 @@ void Surroundings::move_carousel(double time_seconds) {
     const float turn = 2 * pi * static_cast<float>(std::fmod(time_seconds / 12 + i / 6.0, 1.0));
     const Vec3f round{std::cos(turn), 0.35f * std::sin(2 * turn + static_cast<float>(i)), std::sin(turn)};
     const float scale = (i % 2 == 1 ? 0.25f : 0.4f) * size_;
-    scene_.draws[static_cast<std::size_t>(i)].to_world = placed(probe_ + 2.2f * size_ * round, scale, -2 * turn);
+    scene_.draws[static_cast<std::size_t>(i)].to_world =
+        placed(probe_ + 2.2f * size_ * round, scale, -2 * turn);
   }
 }
 

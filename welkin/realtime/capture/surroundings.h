@@ -39,7 +39,7 @@ class Surroundings {
   void move_to(double time_seconds, float flare_radiance);
   const GpuScene& scene() const { return scene_; }
   const std::vector<Flare>& flares() const { return flares_; }
-  Vec3f probe() const { return probe_; }          ///< where it is captured from: the middle of `about`
+  Vec3f probe() const { return probe_; }         ///< where it is captured from: the middle of `about`
   float reach_metres() const { return reach_; }  ///< of the farthest thing from there, at least
 
  private:

@@ -122,8 +122,9 @@ constexpr Parameter parameters[] = {
 constexpr TechniqueInfo table[] = {
     {"dynamic-irradiance", "diffuse, by an irradiance map of moving surroundings that is made each frame",
      "King 2005", Truth::dynamic, parameters, make_lambert, make_diffuse},
-    {"dynamic-phong", "Phong's lobe, by a specular irradiance map of moving surroundings that is made each frame",
-     "King 2005", Truth::dynamic, parameters, make_phong, make_phong_materials},
+    {"dynamic-phong",
+     "Phong's lobe, by a specular irradiance map of moving surroundings that is made each frame", "King 2005",
+     Truth::dynamic, parameters, make_phong, make_phong_materials},
 };
 
 }  // namespace

@@ -10,6 +10,7 @@ std::span<const TechniqueInfo> techniques() {
     for (const auto family : {
              basic_techniques(),
              harmonic_techniques(),
+             dynamic_irradiance_techniques(),
              occlusion_techniques(),
              importance_techniques(),
          })
