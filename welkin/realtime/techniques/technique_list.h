@@ -7,15 +7,10 @@ namespace welkin {
 
 std::span<const TechniqueInfo>
 basic_techniques();  ///< basic.cpp: mirror, irradiance-map, prefiltered-ggx, ...
-<<<<<<< HEAD
 std::span<const TechniqueInfo> harmonic_techniques();    ///< harmonics.cpp: sh-pixel, sh-matrix
 std::span<const TechniqueInfo> importance_techniques();  ///< importance.cpp: importance, filtered-importance
-
-=======
-std::span<const TechniqueInfo> harmonic_techniques();  ///< harmonics.cpp: sh-pixel, sh-matrix
 std::span<const TechniqueInfo>
 dynamic_irradiance_techniques();  ///< dynamic_irradiance.cpp: dynamic-irradiance, dynamic-phong
->>>>>>> be786be (dynamic-irradiance: registered, tested against the library's coefficients, brute force and Preetham's sky)
 std::span<const TechniqueInfo> occlusion_techniques();  ///< occlusion.cpp: ssao-sphere, gtao, ...
 
 }  // namespace welkin
