@@ -6,7 +6,6 @@
 
 #include <welkin/error.h>
 #include <welkin/scene/mesh_repair.h>
-#include <welkin/scene/shapes.h>
 
 namespace welkin {
 namespace {
@@ -61,16 +60,33 @@ GpuMesh upload_mesh(const Mesh& mesh) {
   return gpu;
 }
 
-// A unit sphere; 2 sin^2(pi / 256) = 3e-4 of its radius is the farthest that an edge lies inside.
+// A unit sphere; 2 sin^2(pi / 256) = 3e-4 of its radius is the farthest that an edge lies inside. Texture coordinates and tangents
+// are the path tracer's (surface.cpp): u and v as equirectangular maps have them, tangents along u, which runs leftwards seen
+// from outside. The seam is at -X, the poles are a row of vertices.
 Mesh unit_sphere() {
-  constexpr int rows = 128, columns = 256;
-  std::vector<OutlinePoint> outline;
-  for (int i = 0; i <= rows; ++i) {
-    const float angle = std::numbers::pi_v<float> * (static_cast<float>(i) / rows - 0.5f);
-    const Vec2f point{i == 0 || i == rows ? 0 : std::cos(angle), std::sin(angle)};
-    outline.push_back({point, point});
+  constexpr std::uint32_t rows = 128, columns = 256, stride = columns + 1;
+  Mesh sphere;
+  for (std::uint32_t j = 0; j <= rows; ++j) {
+    for (std::uint32_t i = 0; i <= columns; ++i) {
+      const Vec2f uv{static_cast<float>(i) / columns, static_cast<float>(j) / rows};
+      const float theta = std::numbers::pi_v<float> * uv.y, phi = std::numbers::pi_v<float> * (2 * uv.x - 1);
+      const float across = j == 0 || j == rows ? 0 : std::sin(theta);
+      sphere.positions.push_back({across * std::cos(phi), std::cos(theta), across * std::sin(phi)});
+      sphere.tangents.push_back({-std::sin(phi), 0, std::cos(phi)});
+      sphere.texcoords[0].push_back(uv);
+    }
   }
-  return make_lathe(outline, columns);
+  for (std::uint32_t j = 0; j < rows; ++j) {
+    for (std::uint32_t i = 0; i < columns; ++i) {
+      const std::uint32_t a = j * stride + i, below = a + stride;
+      if (j > 0) sphere.triangles.push_back({a, a + 1, below});
+      if (j + 1 < rows) sphere.triangles.push_back({a + 1, below + 1, below});
+    }
+  }
+  sphere.normals = sphere.positions;
+  sphere.tangent_signs.assign(sphere.positions.size(), -1.0f);
+  sphere.texcoords[1] = sphere.texcoords[0];
+  return sphere;
 }
 
 bool has_normal_map(const Scene& scene, const Mesh& mesh) {
@@ -242,6 +258,7 @@ void set_material(const Program& program, const GpuScene& scene, const Material&
   program.set("material_lafortune", Vec3f{m.lafortune_c[0], m.lafortune_c[1], m.lafortune_c[2]});
   program.set("material_normal_scale", m.normal_scale);
   program.set("material_compensated", m.compensated ? 1 : 0);
+  program.set("material_double_sided", m.double_sided ? 1 : 0);
   program.set("material_alpha", m.base_alpha);
   program.set("material_alpha_cutoff", m.alpha_mode == AlphaMode::opaque ? -1.0f
                                        : m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff

@@ -48,8 +48,8 @@ void set_projection(View& view, const Camera& camera, const Bounds& bounds) {
   if (view.orthographic) {
     half_height = 0.5f * *camera.orthographic_height;
     const float reach = std::max(1e-3f, 0.01f * (range.far - range.near));
-    view.near_metres = range.near - reach;
-    view.far_metres = range.far + reach;
+    view.near_metres = std::max(0.0f, range.near - reach);  // rays begin in the plane of the eye
+    view.far_metres = std::max(view.near_metres + reach, range.far + reach);
     view.view_to_clip = parallel(aspect * half_height, half_height, view.near_metres, view.far_metres);
   } else {
     half_height = std::tan(0.5f * camera.vertical_field_radians);

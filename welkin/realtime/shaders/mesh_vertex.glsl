@@ -17,7 +17,9 @@ void place_vertex() {
   vec4 position = to_world * vec4(vertex_position, 1.0);
   world_position = position.xyz;
   world_normal = normal_to_world * vertex_normal;
-  world_tangent = vec4(mat3(to_world) * vertex_tangent.xyz, vertex_tangent.w);
+  // In a mirrored mesh the cross product of the placed normal and tangent is the placed bitangent's negative.
+  float side = determinant(mat3(to_world)) < 0.0 ? -1.0 : 1.0;
+  world_tangent = vec4(mat3(to_world) * vertex_tangent.xyz, side * vertex_tangent.w);
   texcoords = vertex_texcoords;
   gl_Position = world_to_clip * position;
 }

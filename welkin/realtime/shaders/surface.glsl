@@ -19,7 +19,7 @@ uniform float material_metallic, material_roughness;  // perceptual
 uniform float material_exponent;    // Phong, Lafortune
 uniform vec3 material_lafortune;    // Cx, Cy, Cz
 uniform float material_normal_scale;
-uniform bool material_compensated;
+uniform bool material_compensated, material_double_sided;
 uniform float material_alpha, material_alpha_cutoff;  // cutoff < 0: opaque
 uniform int material_maps;          // bits: 1 base colour, 2 metallic, 4 roughness, 8 normal, 16 emission
 uniform vec3 material_uv[10];       // two rows a map
@@ -57,11 +57,19 @@ vec3 towards_viewer(vec3 normal, vec3 view) {
 
 vec3 view_of_fragment() { return orthographic ? -view_direction : normalize(eye_position - world_position); }
 
+// Of the triangle, on the viewer's side.
+vec3 geometric_normal_of_fragment(vec3 view) {
+  vec3 normal = normalize(cross(dFdx(world_position), dFdy(world_position)));
+  return dot(normal, view) < 0.0 ? -normal : normal;
+}
+
 // The frame of the fragment without its normal map: tangent, bitangent (of the map's handedness) and normal, unit, the normal
 // on the side of the viewer where the triangle is seen from.
 mat3 frame_of_fragment() {
   float side = gl_FrontFacing ? 1.0 : -1.0;
   vec3 normal = normalize(world_normal);
+  // A mesh's normals may contradict its winding, which says what is in front.
+  if (side * dot(normal, geometric_normal_of_fragment(view_of_fragment())) < 0.0) normal = -normal;
   vec3 across = world_tangent.xyz - dot(world_tangent.xyz, normal) * normal;
   float squared = dot(across, across);
   vec3 tangent = squared > 1e-12 ? across * inversesqrt(squared)
@@ -81,8 +89,7 @@ Surface surface_of_fragment() {
   s.position = world_position;
   s.view = view_of_fragment();
   mat3 frame = frame_of_fragment();
-  s.geometric_normal = normalize(cross(dFdx(world_position), dFdy(world_position)));
-  s.geometric_normal *= dot(s.geometric_normal, s.view) < 0.0 ? -1.0 : 1.0;
+  s.geometric_normal = geometric_normal_of_fragment(s.view);
   s.normal_uv = map_uv(3, material_texcoord.w);
   s.normal = (material_maps & 8) != 0 ? normal_of_texel(texture(normal_map, s.normal_uv).xyz, frame) : frame[2];
   s.normal = towards_viewer(s.normal, s.view);
@@ -106,7 +113,7 @@ Surface surface_of_fragment() {
   s.f90 = material_kind == KIND_COATED ? vec3(mix(s.coat.y, 1.0, metallic)) : material_f90;
   s.perceptual_roughness = clamp(roughness, 0.0, 1.0);
   s.alpha = s.perceptual_roughness * s.perceptual_roughness;
-  s.emission = material_emission;
+  s.emission = gl_FrontFacing || material_double_sided ? material_emission : vec3(0.0);
   if ((material_maps & 16) != 0) s.emission *= texture(emission_map, map_uv(4, material_emission_texcoord)).rgb;
   return s;
 }
