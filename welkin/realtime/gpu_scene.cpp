@@ -1,6 +1,7 @@
 #include <welkin/realtime/gpu_scene.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -228,7 +229,9 @@ void set_maps(const Program& program, const GpuScene& scene, const Material& m) 
 GpuScene upload_scene(const Scene& scene) {
   const auto bounds = scene_bounds(scene);
   if (!bounds) throw Error(scene.source, "has nothing that could be seen");
+  static std::atomic<std::uint64_t> serial{0};
   GpuScene gpu;
+  gpu.serial = ++serial;
   gpu.bounds = *bounds;
   gpu.materials = scene.materials;
   for (const Texture& texture : scene.textures) gpu.textures.push_back(upload_texture(texture));
@@ -274,15 +277,17 @@ void set_view(const Program& program, const View& view) {
   program.set("orthographic", view.orthographic ? 1 : 0);
 }
 
-void draw_scene(const Program& program, const GpuScene& scene, const View& view) {
+void draw_scene(const Program& program, const GpuScene& scene, const View& view, MaterialListener* listener) {
   program.use();
   set_view(program, view);
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   int last_material = -1;
   for (const GpuDraw& draw : scene.draws) {
-    if (draw.material != last_material)
+    if (draw.material != last_material) {
       set_material(program, scene, scene.materials[static_cast<std::size_t>(draw.material)]);
+      if (listener != nullptr) listener->material_set(program, draw.material);
+    }
     last_material = draw.material;
     const Affine& a = draw.to_world;
     const float side = determinant(a) < 0 ? -1.0f : 1.0f;

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include <welkin/realtime/gl/program.h>
@@ -30,6 +31,8 @@ struct GpuScene {
   std::vector<GpuDraw> draws;
   GlTexture white;  ///< what stands in for a texture that a material lacks
   Bounds bounds;    ///< when it was uploaded
+  std::uint64_t serial =
+      0;  ///< another one for every upload: what is made from a scene is made again when it changes
 };
 
 /// Throws Error for a scene without geometry, and where OpenGL's memory is too small.
@@ -41,9 +44,17 @@ void set_material(const Program& program, const GpuScene& scene, const Material&
 /// Sets the uniforms of surface.glsl and mesh.vert that say where the eye is.
 void set_view(const Program& program, const View& view);
 
+/// Told of every material that draw_scene has set, before anything is drawn with it: for a technique's own uniforms and textures.
+class MaterialListener {
+ public:
+  virtual ~MaterialListener() = default;
+  virtual void material_set(const Program& program, int material) = 0;
+};
+
 /// Draws everything with a program whose vertex shader is mesh.vert or has its inputs: sets view, material and places. Sets culling off (both sides are
 /// drawn) and the depth test on.
-void draw_scene(const Program& program, const GpuScene& scene, const View& view);
+void draw_scene(const Program& program, const GpuScene& scene, const View& view,
+                MaterialListener* listener = nullptr);
 
 /// Texture units: 0 to 4 the material's, 5 to 9 the environment's (gpu_environment.h), from 10 to 15 the technique's own.
 inline constexpr int first_technique_unit = 10;

@@ -21,8 +21,9 @@ constexpr BuiltInScene scenes[] = {
      "radiance=17 (of the light, W/(sr m^2))"},
     {"shader-ball", "a ball with a ring on a foot over a chequered ground, of metallic-roughness materials",
      "metallic=0, roughness=0.3 (perceptual), anisotropy=0"},
-    {"bumpy", "a glossy metal plane with a normal map",
-     "alpha=0.1 (GGX width), bumps=4 (to a side), slope=0.5"},
+    {"bumpy", "a glossy metal plane or ball with a normal map",
+     "alpha=0.1 (GGX width), bumps=4 (to a side), slope=0.5, pattern=bumps (or noise, brushed, waves, "
+     "bricks), tiling=1 (times that the map repeats), shape=plane (or ball)"},
     {"fences", "rows of thin fences on a ground: shadows, occlusion and leaks of thin things",
      "rows=6, posts=24, thickness=0.02 (metres)"},
 };

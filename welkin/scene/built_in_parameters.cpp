@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -70,6 +71,16 @@ std::vector<float> SceneParameters::list(std::string_view key, std::vector<float
   if (values.empty() || values.size() > 16)
     throw Error(scene_, fmt::format("{} must be 1 to 16 numbers with / between", key));
   return values;
+}
+
+std::size_t SceneParameters::choice(std::string_view key, std::span<const std::string_view> names) {
+  const std::string* text = find(key);
+  if (text == nullptr) return 0;
+  const auto place = std::find(names.begin(), names.end(), *text);
+  if (place == names.end())
+    throw Error(scene_, fmt::format("{} must be one of {}, not \"{}\"", key,
+                                    fmt::join(names.begin(), names.end(), ", "), *text));
+  return static_cast<std::size_t>(place - names.begin());
 }
 
 void SceneParameters::refuse_others() const {

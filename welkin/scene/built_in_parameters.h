@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,9 @@ class SceneParameters {
   float number(std::string_view key, float otherwise, float low, float high);
   int count(std::string_view key, int otherwise, int low, int high);
   std::vector<float> list(std::string_view key, std::vector<float> otherwise, float low, float high);
+
+  /// Which of `names` the value is, the first by default. Throws Error that lists them.
+  std::size_t choice(std::string_view key, std::span<const std::string_view> names);
 
   /// Throws Error naming the first key that nobody asked for.
   void refuse_others() const;

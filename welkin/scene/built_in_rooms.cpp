@@ -42,26 +42,6 @@ void add_walls(Scene& scene, int white, int red, int green) {
   add_rectangle(scene, {1, 0, -1}, {0, 0, 2}, {0, 2, 0}, green);   // right
 }
 
-// Heights of smooth bumps in both directions of the texture, and their normals, in units of the texture's side:
-// h = a sin(2 pi n x) sin(2 pi n y), y upwards. Stored as (n + 1) / 2.
-Texture bump_texture(int bumps, float slope) {
-  constexpr int size = 512;
-  Texture texture{"bumps", Image(size, size, 3)};
-  const double turn = 2 * std::numbers::pi * bumps;
-  for (int row = 0; row < size; ++row) {
-    for (int column = 0; column < size; ++column) {
-      const double x = (column + 0.5) / size * turn, y = -(row + 0.5) / size * turn;
-      const double dx = slope * std::cos(x) * std::sin(y), dy = slope * std::sin(x) * std::cos(y);
-      const double scale = 0.5 / std::sqrt(dx * dx + dy * dy + 1);
-      float* pixel = texture.image.at(column, row);
-      pixel[0] = static_cast<float>(0.5 - dx * scale);
-      pixel[1] = static_cast<float>(0.5 - dy * scale);
-      pixel[2] = static_cast<float>(0.5 + scale);
-    }
-  }
-  return texture;
-}
-
 Texture chequer_texture() {
   constexpr int squares = 16;
   Texture texture{"chequer", Image(squares, squares, 1)};
@@ -140,20 +120,6 @@ Scene make_shader_ball_scene(SceneParameters& parameters) {
   add_instance(scene, add_mesh(scene, ring, material),
                {{0.94f, 0.34f, 0}, {-0.34f, 0.94f, 0}, {0, 0, 1}, {0, 1.2f, 0}});
   scene.cameras.push_back(perspective("front", {0, 2.6f, 5.2f}, {0, 1.0f, 0}, 0.5f, 1.25f));
-  return scene;
-}
-
-Scene make_bumpy_scene(SceneParameters& parameters) {
-  Scene scene;
-  scene.textures.push_back(
-      bump_texture(parameters.count("bumps", 4, 1, 64), parameters.number("slope", 0.5f, 0, 4)));
-  Material glossy;
-  glossy.name = "bumpy";
-  glossy.base_color = {0.9f, 0.72f, 0.4f};
-  glossy.perceptual_roughness = std::sqrt(parameters.number("alpha", 0.1f, 1e-3f, 1));
-  glossy.normal_texture.texture = 0;
-  add_rectangle(scene, {-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, add_material(scene, glossy));
-  scene.cameras.push_back(perspective("above", {0, 2.2f, 4.2f}, {0, 0, 0.1f}, 0.62f, 1.5f));
   return scene;
 }
 

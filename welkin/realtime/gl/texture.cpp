@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <welkin/error.h>
@@ -115,6 +116,26 @@ GlTexture upload_image(const Image& image, TextureDesc desc, bool mipmaps) {
   return texture;
 }
 
+GlTexture upload_levels(std::span<const Image> levels, TextureDesc desc) {
+  if (levels.empty() || levels[0].empty()) throw Error("OpenGL: an empty image cannot be a texture");
+  desc.width = levels[0].width;
+  desc.height = levels[0].height;
+  desc.levels = static_cast<int>(levels.size());
+  GlTexture texture = make_texture(desc);
+  const GlFormat format = gl_format(desc.format);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  for (int level = 0; level < desc.levels; ++level) {
+    const Image& image = levels[static_cast<std::size_t>(level)];
+    const auto texels =
+        spread_channels(image.pixels.data(), static_cast<std::size_t>(image.width) * image.height,
+                        image.channels, channels_of(desc.format), is_half(desc.format));
+    glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, image.width, image.height, format.format, format.type,
+                    texels.data());
+  }
+  check_gl("uploading a texture");
+  return texture;
+}
+
 GlTexture upload_cube(const CubeMips& cube, TexelFormat format) {
   if (cube.empty()) throw Error("OpenGL: an empty cube cannot be a texture");
   TextureDesc desc;
@@ -218,6 +239,17 @@ ByteImage read_bytes(const RenderTarget& target) {
     for (int x = 0; x < image.width; ++x) std::copy_n(from + std::size_t{4} * x, 3, image.at(x, y));
   }
   return image;
+}
+
+TexelFormat finest_filtered_format() {
+  GLint count = 0;
+  glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+  for (GLint i = 0; i < count; ++i) {
+    const auto* name = reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)));
+    if (name != nullptr && std::string_view(name).ends_with("OES_texture_float_linear"))
+      return TexelFormat::rgba32f;
+  }
+  return TexelFormat::rgba16f;
 }
 
 void bind_texture(int unit, GLenum target, const GlTexture& texture) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include <welkin/image/byte_image.h>
 #include <welkin/image/image.h>
 #include <welkin/realtime/gl/objects.h>
@@ -28,6 +30,9 @@ GlTexture make_cube_texture(const TextureDesc& desc);
 /// An image of 1 to 4 channels as r, rg or rgba (missing colours 0, alpha 1) with its mip chain by the driver if wanted.
 /// Format: rgba16f; r32f and rgba32f keep floats as they are.
 GlTexture upload_image(const Image& image, TextureDesc desc, bool mipmaps);
+/// Mip levels that the caller made: levels[k] has max(1, size >> k) texels along an edge. Channels as upload_image; desc gives the format and
+/// how it is sampled.
+GlTexture upload_levels(std::span<const Image> levels, TextureDesc desc);
 /// All levels of a cube of 3 channels. Throws Error for an empty one.
 GlTexture upload_cube(const CubeMips& cube, TexelFormat format = TexelFormat::rgba16f);
 
@@ -51,6 +56,9 @@ Image read_pixels(const RenderTarget& target, int index = 0);
 
 /// The only colour attachment, of format rgba8, as bytes of 3 channels, row 0 the top.
 ByteImage read_bytes(const RenderTarget& target);
+
+/// rgba32f where the driver filters it linearly (OES_texture_float_linear), else rgba16f.
+TexelFormat finest_filtered_format();
 
 /// Binds a texture to a unit.
 void bind_texture(int unit, GLenum target, const GlTexture& texture);

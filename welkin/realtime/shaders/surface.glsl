@@ -91,7 +91,11 @@ Surface surface_of_fragment() {
   mat3 frame = frame_of_fragment();
   s.geometric_normal = geometric_normal_of_fragment(s.view);
   s.normal_uv = map_uv(3, material_texcoord.w);
+#ifdef SMOOTH_NORMAL  // the technique reads the normal map itself
+  s.normal = frame[2];
+#else
   s.normal = (material_maps & 8) != 0 ? normal_of_texel(texture(normal_map, s.normal_uv).xyz, frame) : frame[2];
+#endif
   s.normal = towards_viewer(s.normal, s.view);
   s.tangent = normalize(frame[0] - dot(frame[0], s.normal) * s.normal);
   s.bitangent = cross(s.normal, s.tangent);

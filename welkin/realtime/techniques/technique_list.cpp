@@ -13,6 +13,8 @@ std::span<const TechniqueInfo> techniques() {
              dynamic_irradiance_techniques(),
              occlusion_techniques(),
              importance_techniques(),
+             bump_techniques(),
+             bump_supersampled_techniques(),
          })
       list.insert(list.end(), family.begin(), family.end());
     return list;

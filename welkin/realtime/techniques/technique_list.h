@@ -13,4 +13,7 @@ std::span<const TechniqueInfo>
 dynamic_irradiance_techniques();  ///< dynamic_irradiance.cpp: dynamic-irradiance, dynamic-phong
 std::span<const TechniqueInfo> occlusion_techniques();  ///< occlusion.cpp: ssao-sphere, gtao, ...
 
+std::span<const TechniqueInfo> bump_supersampled_techniques();  ///< bump_supersampled.cpp
+std::span<const TechniqueInfo> bump_techniques();  ///< bump.cpp: bump-naive, toksvig, lean, schilling, ...
+
 }  // namespace welkin
