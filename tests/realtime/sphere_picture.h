@@ -32,20 +32,35 @@ inline Scene sphere_scene(const Material& material, const SphereView& view) {
   return scene;
 }
 
-/// The picture, in floats, without the background. Needs a context.
+/// Draws pictures of one sphere by one technique, in floats, without the background. Needs a context.
+class SpherePainter {
+ public:
+  explicit SpherePainter(const char* technique) : renderer_({TexelFormat::rgba32f, TexelFormat::rgba16f}) {
+    renderer_.show_background = false;
+    const TechniqueChoice choice = parse_technique(technique);
+    renderer_.set_technique(*choice.technique, choice.values);
+  }
+
+  Image draw(const Material& material, const std::shared_ptr<const EnvironmentData>& light,
+             const SphereView& view = {}) {
+    const Scene scene = sphere_scene(material, view);
+    renderer_.set_camera(scene.cameras[0]);
+    renderer_.set_scene(scene);
+    if (light != light_) renderer_.set_environment(light);
+    light_ = light;
+    renderer_.resize(view.size, view.size);
+    renderer_.draw();
+    return renderer_.read_picture();
+  }
+
+ private:
+  Renderer renderer_;
+  std::shared_ptr<const EnvironmentData> light_;
+};
+
 inline Image draw_sphere(const char* technique, const Material& material,
                          const std::shared_ptr<const EnvironmentData>& light, const SphereView& view = {}) {
-  Renderer renderer({TexelFormat::rgba32f, TexelFormat::rgba16f});
-  renderer.show_background = false;
-  const TechniqueChoice choice = parse_technique(technique);
-  const Scene scene = sphere_scene(material, view);
-  renderer.set_technique(*choice.technique, choice.values);
-  renderer.set_camera(scene.cameras[0]);
-  renderer.set_scene(scene);
-  renderer.set_environment(light);
-  renderer.resize(view.size, view.size);
-  renderer.draw();
-  return renderer.read_picture();
+  return SpherePainter(technique).draw(material, light, view);
 }
 
 /// A pixel of the sphere with what is seen there.

@@ -16,7 +16,7 @@ GlTexture upload_dfg(const DfgTable& table) {
 
 }  // namespace
 
-GpuEnvironment upload_environment(const IblSet& set, TexelFormat format) {
+GpuEnvironment upload_environment(const IblSet& set, TexelFormat format, LevelLaw law) {
   static std::atomic<std::uint64_t> uploads{0};
   GpuEnvironment gpu;
   gpu.upload = ++uploads;
@@ -28,6 +28,7 @@ GpuEnvironment upload_environment(const IblSet& set, TexelFormat format) {
   gpu.environment_levels = static_cast<int>(set.environment.levels.size());
   gpu.specular_size = set.specular.size();
   gpu.specular_levels = static_cast<int>(set.specular.levels.size());
+  gpu.law = law;
   gpu.irradiance_size = set.irradiance.size;
   for (std::size_t i = 0; i < 9; ++i) {
     const double* rgb = &set.radiance_sh.values[3 * i];
@@ -49,6 +50,8 @@ void set_environment(const Program& program, const GpuEnvironment& environment) 
   program.set_texture("dfg_map", 8, GL_TEXTURE_2D, environment.dfg);
   program.set("specular_last_level", static_cast<float>(environment.specular_levels - 1));
   program.set("environment_last_level", static_cast<float>(environment.environment_levels - 1));
+  program.set("specular_law", static_cast<int>(environment.law));
+  program.set("specular_size", static_cast<float>(environment.specular_size));
   program.set_linear("world_to_environment", world_to_environment(environment.rotation_radians));
   program.set_vec3_array("radiance_sh", {environment.radiance_sh.begin(), environment.radiance_sh.end()});
 }

@@ -156,6 +156,11 @@ void upload_spheres(const Scene& scene, GpuScene& gpu) {
   }
 }
 
+// power_lobe.glsl's.
+int power_of(MaterialModel model) {
+  return model == MaterialModel::phong ? 1 : model == MaterialModel::lafortune ? 2 : 0;
+}
+
 // surface.glsl's kinds.
 constexpr int kind_coated = 0, kind_metal = 1, kind_diffuse = 2;
 
@@ -258,6 +263,7 @@ void set_material(const Program& program, const GpuScene& scene, const Material&
   program.set("material_metallic", m.model == MaterialModel::metallic_roughness ? m.metallic : 0.0f);
   program.set("material_roughness", c.roughness);
   program.set("material_exponent", m.exponent);
+  program.set("material_power", power_of(m.model));
   program.set("material_lafortune", Vec3f{m.lafortune_c[0], m.lafortune_c[1], m.lafortune_c[2]});
   program.set("material_normal_scale", m.normal_scale);
   program.set("material_compensated", m.compensated ? 1 : 0);

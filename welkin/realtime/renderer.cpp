@@ -70,7 +70,7 @@ void Renderer::set_scene(Scene scene) {
 }
 
 void Renderer::set_environment(std::shared_ptr<const EnvironmentData> light) {
-  state_->environment = upload_environment(light->maps, state_->options.environment);
+  state_->environment = upload_environment(light->maps, state_->options.environment, light->law);
   state_->light = std::move(light);
   state_->environment.rotation_radians = state_->rotation_radians;
   state_->accumulated = 0;

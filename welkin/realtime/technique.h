@@ -38,8 +38,9 @@ using ParameterValues = std::vector<float>;
 
 /// The maps on the processor that some techniques need beside the ones in OpenGL. Kept alive by whoever made them.
 struct EnvironmentData {
-  Image radiance;  ///< equirectangular, linear
-  IblSet maps;
+  Image radiance;                   ///< equirectangular, linear
+  IblSet maps;                      ///< KernelKind::ggx, DfgForm::scale_bias
+  LevelLaw law = LevelLaw::linear;  ///< of maps.specular
 };
 
 /// What one frame is drawn from. The target is bound, cleared, its viewport set.

@@ -11,6 +11,8 @@ std::span<const TechniqueInfo> techniques() {
              basic_techniques(),
              harmonic_techniques(),
              dynamic_irradiance_techniques(),
+             power_lobe_techniques(),
+             stretched_techniques(),
              occlusion_techniques(),
              importance_techniques(),
              bump_techniques(),

@@ -11,6 +11,10 @@ std::span<const TechniqueInfo> harmonic_techniques();    ///< harmonics.cpp: sh-
 std::span<const TechniqueInfo> importance_techniques();  ///< importance.cpp: importance, filtered-importance
 std::span<const TechniqueInfo>
 dynamic_irradiance_techniques();  ///< dynamic_irradiance.cpp: dynamic-irradiance, dynamic-phong
+std::span<const TechniqueInfo>
+power_lobe_techniques();  ///< power_lobes.cpp: prefiltered-phong, fresnel-blend, lafortune
+std::span<const TechniqueInfo> stretched_techniques();  ///< stretched.cpp: stretched
+
 std::span<const TechniqueInfo> occlusion_techniques();  ///< occlusion.cpp: ssao-sphere, gtao, ...
 
 std::span<const TechniqueInfo> bump_supersampled_techniques();  ///< bump_supersampled.cpp
