@@ -1,11 +1,15 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
+#include <numbers>
+#include <vector>
 
 #include <welkin/pathtrace/camera_ray.h>
 #include <welkin/pathtrace/render_scene.h>
 #include <welkin/realtime/renderer.h>
+#include <welkin/scene/shapes.h>
 #include <welkin/sphere/equirect.h>
 
 // What the path tracer says of the points at the centres of pixels, for the renderer, which draws those.
@@ -56,12 +60,19 @@ inline std::shared_ptr<const EnvironmentData> small_environment(Image radiance) 
   return make_environment_data(std::move(radiance), options);
 }
 
-/// A unit sphere of one material that fills the picture's middle.
+/// A unit sphere of one material that fills the picture's middle: a mesh of few triangles with smooth normals.
 inline Scene one_sphere(const Material& material) {
   Scene scene;
   scene.source = "one sphere";
   scene.materials = {material};
-  scene.spheres = {{{0, 0, 0}, 1, 0}};
+  std::vector<OutlinePoint> outline;
+  for (int i = 0; i <= 16; ++i) {
+    const float angle = std::numbers::pi_v<float> * (static_cast<float>(i) / 16 - 0.5f);
+    const Vec2f point{i == 0 || i == 16 ? 0 : std::cos(angle), std::sin(angle)};
+    outline.push_back({point, point});
+  }
+  scene.meshes = {make_lathe(outline, 32)};
+  scene.instances = {{0, {}}};
   Camera camera;
   camera.to_world = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 4}};
   camera.vertical_field_radians = 0.5f;

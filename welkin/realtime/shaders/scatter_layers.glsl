@@ -11,7 +11,8 @@ struct Layers {
   vec3 view;
   float alpha, stretched;         // |(alpha x, alpha y, z)| of the view
   vec3 f0, f90;
-  vec3 multiple;                  // of the lobe without lost(light)
+  vec3 between;                   // what the light between facets reflects of a constant environment
+  vec3 multiple;                  // of that lobe, without lost(light)
   float spread, log_spread;
   vec3 diffuse;                   // of the lobe without 1 - coat(light)
   vec3 coat;                      // constant, of lost, of bias
@@ -70,6 +71,7 @@ Layers layers_of(Surface s, vec3 view) {
     between = energy.x * multiple_of(s, 1.0 - average.r);
     k = multiple_colour(average_schlick(vec3(s.coat.x), vec3(s.coat.y)), 1.0 - average.r).r;
   }
+  m.between = between;
   m.multiple = between / (PI * average.r);
   m.coat = vec3(s.coat.x, k - s.coat.x, s.coat.y - s.coat.x);
   float below = 1.0 - coat_energy(m.coat, average.rg);
@@ -84,17 +86,22 @@ Layers layers_of(Surface s, vec3 view) {
   return m;
 }
 
-// rgb: f times the light's cosine; a: the density of sample_layers, per steradian. light.z > 0.
-vec4 layers_value(Layers m, vec3 light) {
+// Of the facets alone, chosen always. rgb: f times the light's cosine; a: the density of sample_facets. light.z > 0.
+vec4 facets_value(Layers m, vec3 light) {
   vec3 h = light + m.view;
   vec2 slope = h.xy / m.alpha;
   float squared = dot(h, h), ratio = squared / max(dot(slope, slope) + h.z * h.z, 1e-30);
   float distribution = ratio * ratio / (PI * m.alpha * m.alpha);
   float stretched_light = length(vec3(m.alpha * light.xy, light.z));
   float share = distribution * light.z / (2.0 * max(light.z * m.stretched + m.view.z * stretched_light, 1e-37));
-  vec4 value;
-  value.rgb = share * mix(m.f0, m.f90, schlick_weight(min(1.0, sqrt(squared) / 2.0)));
-  value.a = m.p_facets * distribution / (2.0 * (m.view.z + m.stretched));
+  return vec4(share * mix(m.f0, m.f90, schlick_weight(min(1.0, sqrt(squared) / 2.0))),
+              distribution / (2.0 * (m.view.z + m.stretched)));
+}
+
+// rgb: f times the light's cosine; a: the density of sample_layers, per steradian. light.z > 0.
+vec4 layers_value(Layers m, vec3 light) {
+  vec4 value = facets_value(m, light);
+  value.a *= m.p_facets;
   vec2 energy = energy_of(light.z, m.alpha);
   value.rgb += energy.x * light.z * m.multiple + max(0.0, 1.0 - coat_energy(m.coat, energy)) * light.z * m.diffuse;
   value.a += m.p_multiple * light.z / (PI * (light.z * light.z + m.spread) * m.log_spread) + m.p_diffuse * light.z / PI;

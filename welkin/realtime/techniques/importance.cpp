@@ -170,12 +170,47 @@ void keep_shown_models(Scene& scene) {
   }
 }
 
+constexpr std::string_view pattern_names[] = {"same", "scrambled"};
+
+constexpr Parameter filtered_parameters[] = {
+    {"samples", "look-ups of a pixel", 1, 256, 16, true, {}},
+    {"bias", "added to the mip level: more blur, fewer bands", -2, 4, 0, false, {}},
+    {"pattern", "directions: the same in all pixels, or each with its own (noise for bands)", 0, 1, 0, true,
+     pattern_names},
+};
+
+class FilteredImportance : public Technique {
+ public:
+  FilteredImportance()
+      : energies_(upload_scatter_energies()), program_("mesh.vert", "filtered_importance.frag") {}
+
+  void draw(const Frame& frame, const ParameterValues& values) override {
+    const PassTimer::Scope timed(frame.timer, "filtered_importance.frag");
+    program_.use();
+    set_environment(program_, frame.environment);
+    program_.set("samples", static_cast<int>(values[0]));
+    program_.set("level_bias", values[1]);
+    program_.set("same_for_all", values[2] == 0 ? 1 : 0);
+    program_.set_texture("energy_map", unit_energy, GL_TEXTURE_2D, energies_.energies);
+    program_.set_texture("energy_average_map", unit_average, GL_TEXTURE_2D, energies_.averages);
+    draw_scene(program_, frame.scene, frame.view);
+  }
+
+ private:
+  ScatterEnergies energies_;
+  Program program_;
+};
+
+std::unique_ptr<Technique> make_filtered() { return std::make_unique<FilteredImportance>(); }
+
 std::unique_ptr<Technique> make_importance() { return std::make_unique<Importance>(); }
 
 constexpr TechniqueInfo rows[] = {
     {"importance", "the environment sampled in each pixel, more samples every frame: converges to the truth",
      "Veach & Guibas 1995; Pharr, Jakob & Humphreys 2016", Truth::unshadowed, importance_parameters,
      make_importance, keep_shown_models},
+    {"filtered-importance", "glossy by few directions of the material, each a look-up in the mip of its size",
+     "Krivanek & Colbert 2008", Truth::unshadowed, filtered_parameters, make_filtered, keep_shown_models},
 };
 
 }  // namespace
