@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include <welkin/image/z_test.h>
 #include <welkin/realtime/gl/headless_context.h>
+#include <welkin/realtime/gl/shader_text.h>
+#include <welkin/realtime/techniques/sampled_environment.h>
 
 #include "tests/oracles/chi_square.h"
 #include "tests/realtime/shading_truth.h"
@@ -130,6 +133,87 @@ void prepare(Renderer& renderer, const Scene& scene, const Image& map) {
   renderer.set_scene(scene);
   renderer.set_environment(oracle::small_environment(map));
   renderer.resize(width, height);
+}
+
+// A program that writes welkin_sample of sample_pair, pixel after pixel, made here because no technique shows its directions.
+GlProgram directions_program(SamplingTableForm form, EnvironmentDensity density) {
+  const std::string head(shader_head());
+  const std::string vertex = head + shader_text("fullscreen.vert");
+  const std::string fragment =
+      head + sampled_environment_glsl(form, density) + shader_text("sample_numbers.glsl") +
+      "uniform sampler2D map, table;\nlayout(location = 0) out vec4 found;\nvoid main() {\n"
+      "  uint i = uint(gl_FragCoord.x) + 256u * uint(gl_FragCoord.y);\n"
+      "  WelkinSample s = welkin_sample(map, table, sample_pair(i % 64u, pixel_seed(ivec2(i / 64u, 5))));\n"
+      "  found = vec4(s.direction, s.pdf);\n}\n";
+  GlProgram program = GlProgram::make();
+  for (const auto& [kind, text] :
+       {std::pair(GL_VERTEX_SHADER, &vertex), std::pair(GL_FRAGMENT_SHADER, &fragment)}) {
+    const GLuint shader = glCreateShader(kind);
+    const char* source = text->c_str();
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    glAttachShader(program.name(), shader);
+    glDeleteShader(shader);
+  }
+  glLinkProgram(program.name());
+  GLint linked = 0;
+  glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+  EXPECT_EQ(linked, GL_TRUE);
+  return program;
+}
+
+// 65,536 directions, 64 of each of 1024 streams, with their densities.
+Image drawn_directions(const Image& map, SamplingTableForm form, EnvironmentDensity density) {
+  const GlProgram program = directions_program(form, density);
+  const SampledEnvironment sampled = upload_sampled_environment(map, {form, density});
+  const TexelFormat format = TexelFormat::rgba32f;
+  const RenderTarget target = make_render_target(256, 256, &format, 1, false);
+  target.bind();
+  glDisable(GL_DEPTH_TEST);
+  glUseProgram(program.name());
+  bind_texture(0, GL_TEXTURE_2D, sampled.map);
+  bind_texture(1, GL_TEXTURE_2D, sampled.table);
+  glUniform1i(glGetUniformLocation(program.name(), "map"), 0);
+  glUniform1i(glGetUniformLocation(program.name(), "table"), 1);
+  Fullscreen().draw();
+  return read_pixels(target);
+}
+
+// Samples of one stream keep their distance, so the statistic is below what independent ones give: this finds directions that do
+// not follow the table, not numbers that are too even.
+TEST(Importance, DirectionsFollowTheTableAndSayTheirDensity) {
+  const HeadlessContext context;
+  const Image map = sun_map();
+  for (const auto form : {SamplingTableForm::cdf, SamplingTableForm::alias, SamplingTableForm::rows})
+    for (const auto density : {EnvironmentDensity::luminance_solid_angle, EnvironmentDensity::luminance}) {
+      EnvironmentSamplerOptions options;
+      options.density = density;
+      const EnvironmentSampler sampler(map, options);
+      const Image drawn = drawn_directions(map, form, density);
+      std::vector<double> observed(map.pixels.size() / 3), expected(observed.size());
+      for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x) {
+          const double weight = luminance(Rgb{map.at(x, y)[0], map.at(x, y)[1], map.at(x, y)[2]});
+          expected[static_cast<std::size_t>(y * map.width + x)] =
+              weight * (density == EnvironmentDensity::luminance
+                            ? 1
+                            : equirect_texel_solid_angle(map.width, map.height, y));
+        }
+      const double total = std::accumulate(expected.begin(), expected.end(), 0.0);
+      for (double& e : expected) e *= 65536 / total;
+      int wrong_density = 0;
+      for (int i = 0; i < 65536; ++i) {
+        const float* d = &drawn.pixels[static_cast<std::size_t>(4 * i)];
+        const auto texel = sampler.texel_of({d[0], d[1], d[2]});
+        ++observed[static_cast<std::size_t>(texel.y * map.width + texel.x)];
+        // A direction within rounding of a texel's edge may be counted to its neighbour.
+        wrong_density += std::abs(d[3] / sampler.pdf({d[0], d[1], d[2]}) - 1) > 1e-3f;
+      }
+      const oracle::ChiSquare chi = oracle::chi_square(observed, expected);
+      const int which = 2 * static_cast<int>(form) + static_cast<int>(density);
+      EXPECT_GT(chi.p, oracle::sidak_threshold(1e-3, 6)) << which << ": " << chi.statistic;
+      EXPECT_LT(wrong_density, 20) << which;
+    }
 }
 
 TEST(Importance, EveryStrategyAndTableGivesTheSumOverTheEnvironment) {
