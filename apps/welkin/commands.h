@@ -18,5 +18,6 @@ void add_sampling_command(CLI::App& app);
 void add_scene_command(CLI::App& app);
 void add_sh_command(CLI::App& app);
 void add_sky_command(CLI::App& app);
+void add_view_command(CLI::App& app);
 
 }  // namespace welkin

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   welkin::add_sampling_command(app);
   welkin::add_scene_command(app);
   welkin::add_sky_command(app);
+  welkin::add_view_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

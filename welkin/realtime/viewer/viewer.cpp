@@ -158,10 +158,17 @@ void take_over(Renderer& renderer, const ViewerState& state, const Camera& camer
 
 }  // namespace
 
+bool Viewer::has_picture() const { return state_->drawn_view != 0; }
+
+bool Viewer::is_current() const {
+  const State& s = *state_;
+  return s.drawn_view == s.view && same_view(state, s.applied, proportion(s.width, s.height));
+}
+
 bool Viewer::needs_draw() const {
   const State& s = *state_;
   if (!s.has_scene || !s.light || s.width == 0) return false;
-  if (s.drawn_view != s.view || !same_view(state, s.applied, proportion(s.width, s.height))) return true;
+  if (!is_current()) return true;
   if (state.comparison != Comparison::picture) {
     if (state.reference != s.applied.reference || (has_reference() && !s.measured)) return true;
     if (compares_technique(state) &&

@@ -33,6 +33,10 @@ class Viewer {
 
   /// Moves the animation, if it runs, by the seconds since the last frame.
   void advance(double seconds);
+  /// Whether there is a picture to show.
+  bool has_picture() const;
+  /// Whether the picture is of the state as it is now, whatever may still be refined.
+  bool is_current() const;
   /// Whether draw() would change the picture: something was changed, or a progressive technique goes on refining it.
   bool needs_draw() const;
   /// Takes over the state and draws the picture, and the reference technique where it is compared with. Does nothing before there is a scene,
