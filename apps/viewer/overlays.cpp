@@ -107,7 +107,7 @@ void draw_help(bool& open, const Area& picture) {
       ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse);
   for (const Shortcut& shortcut : shortcuts()) {
     ImGui::TextColored({1, 0.85f, 0.4f, 1}, "%s", shortcut.keys);
-    ImGui::SameLine(11 * ImGui::GetFontSize());
+    ImGui::SameLine(12.5f * ImGui::GetFontSize());
     ImGui::TextUnformatted(shortcut.meaning);
   }
   ImGui::End();

@@ -14,6 +14,9 @@
 namespace welkin {
 namespace {
 
+// ImGui lays out what has just appeared in one frame and draws it in the next.
+constexpr int frames_of_a_screenshot = 3;
+
 struct Given {
   std::string file, scene, environment, technique, against, comparison, size, exposure = "auto",
                                                                               curve = "filmic";
@@ -83,7 +86,7 @@ void finish(const Given& given, ViewOptions& options) {
       throw CLI::ValidationError("--exposure",
                                  "needs auto or stops from -60 to 60, not '" + given.exposure + "'");
   }
-  if (!options.screenshot.empty() && options.frames == 0) options.frames = 1;
+  if (!options.screenshot.empty() && options.frames == 0) options.frames = frames_of_a_screenshot;
 }
 
 void declare(CLI::App& app, Given& given, ViewOptions& options) {
