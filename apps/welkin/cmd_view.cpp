@@ -40,7 +40,7 @@ std::string viewer_program() {
 void add_view_command(CLI::App& app) {
   CLI::App* sub =
       app.add_subcommand("view", "A window: every technique live, beside the truth (welkin-view)");
-  sub->prefix_command();
+  sub->fallthrough(false)->prefix_command();
   sub->set_help_flag();  // welkin-view has its own
   sub->callback([sub] { start_viewer(sub->remaining()); });
 }
