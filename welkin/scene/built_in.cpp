@@ -26,10 +26,15 @@ constexpr BuiltInScene scenes[] = {
      "bricks), tiling=1 (times that the map repeats), shape=plane (or ball)"},
     {"fences", "rows of thin fences on a ground: shadows, occlusion and leaks of thin things",
      "rows=6, posts=24, thickness=0.02 (metres)"},
+    {"stairs", "steps with thin rails between pillars, before a wall: corners of every depth",
+     "steps=9, baluster=0.025 (metres)"},
+    {"cards", "a bush of loose leaves on a stem, in thin grass: occluders without thickness",
+     "leaves=700, size=0.16 (metres)"},
 };
 using Maker = Scene (*)(SceneParameters& parameters);
-constexpr Maker makers[] = {make_spheres_scene,     make_plane_scene, make_furnace_scene, make_box_scene,
-                            make_shader_ball_scene, make_bumpy_scene, make_fences_scene};
+constexpr Maker makers[] = {make_spheres_scene, make_plane_scene,       make_furnace_scene,
+                            make_box_scene,     make_shader_ball_scene, make_bumpy_scene,
+                            make_fences_scene,  make_stairs_scene,      make_cards_scene};
 static_assert(std::size(scenes) == std::size(makers));
 
 }  // namespace

@@ -13,5 +13,7 @@ Scene make_box_scene(SceneParameters& parameters);
 Scene make_shader_ball_scene(SceneParameters& parameters);
 Scene make_bumpy_scene(SceneParameters& parameters);
 Scene make_fences_scene(SceneParameters& parameters);
+Scene make_stairs_scene(SceneParameters& parameters);
+Scene make_cards_scene(SceneParameters& parameters);
 
 }  // namespace welkin
