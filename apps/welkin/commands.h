@@ -10,6 +10,7 @@ void add_brdf_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_filter_command(CLI::App& app);
+void add_frame_command(CLI::App& app);
 void add_ibl_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_reflect_command(CLI::App& app);

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   welkin::add_reflect_command(app);
   welkin::add_brdf_command(app);
   welkin::add_render_command(app);
+  welkin::add_frame_command(app);
   welkin::add_sh_command(app);
   welkin::add_sampling_command(app);
   welkin::add_scene_command(app);

@@ -26,6 +26,7 @@ void check_integrator(const CLI::App& sub, const RenderCommand& command) {
   const std::string& integrator = command.integrator;
   const std::string reason = fmt::format("has no effect on --integrator {}", integrator);
   if (integrator != "ao") refuse(sub, {"--ao-distance"}, reason);
+  if (integrator != "direct") refuse(sub, {"--no-shadows"}, reason);
   if (integrator != "path") refuse(sub, {"--bounces", "--clamp"}, reason);
   if (integrator == "ao" || integrator == "ibl") refuse(sub, {"--sampling", "--heuristic"}, reason);
 }

@@ -2,8 +2,6 @@
 
 #include <unistd.h>
 
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 
 #include <welkin/error.h>
@@ -11,6 +9,7 @@
 #include <welkin/image/codecs/ldr.h>
 
 #include "flat_file.h"
+#include "tone_input.h"
 
 namespace welkin {
 
@@ -36,19 +35,7 @@ void check_render_output(const RenderCommand& command) {
 }
 
 ToneMapOptions tone_options(const RenderCommand& command) {
-  ToneMapOptions options;
-  options.curve = command.curve == "filmic"     ? ToneCurve::filmic
-                  : command.curve == "reinhard" ? ToneCurve::reinhard
-                                                : ToneCurve::clamp;
-  if (command.exposure == "auto") return options;
-  double stops = 0;
-  const char *begin = command.exposure.data(), *end = begin + command.exposure.size();
-  const auto [rest, error] = std::from_chars(begin, end, stops);
-  if (error != std::errc() || rest != end || !(std::abs(stops) <= 100))
-    throw CLI::ValidationError(
-        "--exposure", "is auto or a number of stops from -100 to 100, not '" + command.exposure + "'");
-  options.exposure_ev = stops;
-  return options;
+  return parse_tone(command.exposure, command.curve);
 }
 
 std::vector<OutputFile> render_files(const RenderCommand& command, const PictureState& state) {

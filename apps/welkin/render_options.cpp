@@ -1,50 +1,10 @@
 #include "render_options.h"
 
-#include <welkin/scene/built_in.h>
-
 #include "environment_options.h"
+#include "tone_input.h"
 
 namespace welkin {
 namespace {
-
-std::string scene_help() {
-  std::string text = "A built-in scene in place of FILE, NAME or NAME:key=value,...:";
-  for (const BuiltInScene& scene : built_in_scenes()) text += " " + std::string(scene.name) + ",";
-  text.pop_back();
-  return text;
-}
-
-void add_scene_options(CLI::App& sub, RenderCommand& command) {
-  sub.add_option("FILE", command.file, "A scene: .gltf, .glb, .obj or .ply; or the name of a built-in one");
-  sub.add_option("--scene", command.scene_name, scene_help());
-  sub.add_option(
-      "--env", command.environment,
-      "What lights it: an HDR file, sky:... or none; sky: where the scene has no light of its own");
-  sub.add_option("--env-mapping", command.mapping,
-                 "What a flat environment shows: equirectangular, cube, ...")
-      ->check(is_mapping());
-  sub.add_option("--env-rotate", command.environment_options.rotate_degrees,
-                 "Turn the environment about +Y by so many degrees")
-      ->check(must_be_finite);
-  sub.add_flag("--env-mirror", command.environment_options.mirror, "Swap left and right of the environment");
-  sub.add_option("--faults", command.faults,
-                 "NaN, infinite and negative values of the environment: repair or refuse")
-      ->check(CLI::IsMember({"repair", "refuse"}))
-      ->capture_default_str();
-  sub.add_flag("--hide-env", command.hide_environment,
-               "Black behind the scene; the environment still lights it");
-}
-
-void add_camera_options(CLI::App& sub, RenderCommand& command) {
-  sub.add_option("--camera", command.camera, "Of the scene's cameras: a name, or a number from 0");
-  sub.add_option("--eye", command.eye, "Where the camera stands, X,Y,Z in metres");
-  sub.add_option("--look-at", command.look_at, "What it looks at, X,Y,Z in metres");
-  sub.add_option("--fov", command.field_degrees, "Vertical field of view in degrees")
-      ->check(must_be_finite)
-      ->check(CLI::Range(0.01, 179.0));
-  sub.add_option("--size", command.size,
-                 "WIDTHxHEIGHT in pixels; about 300,000 pixels of the camera's proportions");
-}
 
 void add_sampling_options(CLI::App& sub, RenderCommand& command) {
   auto* samples = sub.add_option("--spp", command.samples, "Samples a pixel")
@@ -84,6 +44,9 @@ void add_sampling_options(CLI::App& sub, RenderCommand& command) {
       ->check(must_be_finite)
       ->check(CLI::Range(0.0, 1e12))
       ->capture_default_str();
+  sub.add_flag("--no-shadows", command.no_shadows,
+               "direct: the environment lights every surface as if nothing else were there, and other lights do "
+               "not: what precomputed maps approximate");
   sub.add_option("--clamp", command.clamp,
                  "The most radiance of one indirect contribution: fewer specks, less light; 0 leaves all")
       ->check(must_be_finite)
@@ -99,10 +62,7 @@ void add_output_options(CLI::App& sub, RenderCommand& command) {
          "FILE.png beside it")
       ->required()
       ->check(must_be_a_name);
-  sub.add_option("--exposure", command.exposure, "PNG: stops, or auto")->capture_default_str();
-  sub.add_option("--curve", command.curve, "PNG: filmic, srgb (clipped) or reinhard")
-      ->check(CLI::IsMember({"filmic", "srgb", "reinhard"}))
-      ->capture_default_str();
+  add_tone_options(sub, command.exposure, command.curve);
   sub.add_option("--watch", command.watch_seconds,
                  "Rewrite both files every so many seconds; 0: at the end only")
       ->check(must_be_finite)
@@ -124,6 +84,8 @@ void add_output_options(CLI::App& sub, RenderCommand& command) {
 
 void add_render_options(CLI::App& sub, RenderCommand& command) {
   add_scene_options(sub, command);
+  sub.add_flag("--hide-env", command.hide_environment,
+               "Black behind the scene; the environment still lights it");
   add_camera_options(sub, command);
   add_sampling_options(sub, command);
   add_output_options(sub, command);

@@ -2,17 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include <welkin/envmap/environment.h>
+#include "scene_input.h"
 
 namespace welkin {
 
 /// What the user asked `welkin render` for, as written; render_job.h makes a scene of it.
-struct RenderCommand {
-  std::string file, scene_name;
-  std::string environment, mapping, faults = "repair";
-  EnvironmentOptions environment_options;
-  std::string size, camera, eye, look_at;
-  double field_degrees = 0;  ///< 0: the camera's own
+struct RenderCommand : SceneInput {
   std::string integrator = "path", sampling = "mis", heuristic = "power";
   std::uint32_t samples = 64, least_samples = 64, most_samples = 16384, seed = 0;
   bool samples_given = false;
@@ -20,7 +15,7 @@ struct RenderCommand {
   int bounces = 64;
   double occlusion_distance = 0;  ///< 0: everything
   double clamp = 0;
-  bool hide_environment = false;
+  bool hide_environment = false, no_shadows = false;
   std::string output, exposure = "auto", curve = "filmic";
   double watch_seconds = 0, state_seconds = 60;
   bool resume = false, keep_state = false;
