@@ -35,6 +35,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"prt", {"pathtrace", "raytrace", "sh", "envmap"}},
     {"probes", {"pathtrace", "raytrace", "sh", "envmap"}},
     {"realtime", {"scene", "envmap"}},
+    {"comparison", {"pathtrace", "realtime"}},
 };
 
 // Third-party headers (a pattern of what stands between the brackets) and the only files of welkin/ and apps/

@@ -112,6 +112,7 @@ void add(Hash& hash, const PictureOptions& options) {
   if (options.target_error > 0) hash.add_all(options.samples, options.least_samples);
   hash.add_all(i.integrator, i.sampling, i.heuristic, i.max_bounces, i.roulette_bounce, i.occlusion_distance,
                i.occlusion_rays, i.clamp_indirect, i.show_environment, i.seed);
+  if (!i.shadows) hash.add(i.shadows);
 }
 
 }  // namespace

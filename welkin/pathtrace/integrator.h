@@ -37,6 +37,9 @@ struct IntegratorOptions {
   float occlusion_distance = 1e30f;  ///< ambient_occlusion: how far a ray looks, metres
   int occlusion_rays = 1;            ///< per sample, >= 1
   float clamp_indirect = 0;          ///< largest radiance of an indirect contribution; 0: no clamp, unbiased
+  /// direct only. False: what precomputed maps approximate. The environment lights every surface as if nothing else were
+  /// there, over the hemisphere of its shading normal; other lights do not, but surfaces that emit are seen.
+  bool shadows = true;
   bool show_environment = true;      ///< behind the scene; else black, coverage says where
   std::uint32_t seed = 0;
   const ImageBasedLight* image_based =

@@ -31,7 +31,7 @@ class PathTracer {
  public:
   PathTracer(const RenderScene::Tables& tables, const IntegratorOptions& options, Rays& rays)
       : tables_(tables), options_(options), rays_(rays) {
-    bounces_ = options.integrator == Integrator::direct ? 0 : std::max(options.max_bounces, 0);
+    bounces_ = options.integrator == Integrator::direct || !options.shadows ? 0 : std::max(options.max_bounces, 0);
     if (options.sampling == LightSampling::product && tables.environment != nullptr) {
       product_ = &tables.product();
       lights_ = &product_->others;
@@ -103,7 +103,9 @@ class PathTracer {
   /// all paths in loops of its own, so that the waits overlap.
   void step(int bounce) {
     const RayKind kind = bounce == 0 ? RayKind::side_by_side : RayKind::scattered;
-    const std::uint32_t met = rays_.closest(std::span<const Ray>(space_.rays_out, count_), space_.hits, kind);
+    const bool looks_past_all = bounce > 0 && !options_.shadows;
+    const std::uint32_t met =
+        looks_past_all ? 0 : rays_.closest(std::span<const Ray>(space_.rays_out, count_), space_.hits, kind);
     prefetch_surfaces(tables_.rays, met, space_.hits);
     add_environment(met, bounce);
     const std::size_t count = meet_surfaces(met, bounce);
@@ -128,7 +130,8 @@ class PathTracer {
   void add_what_is_visible(int bounce) {
     for (std::size_t begin = 0; begin < shadows_; begin += RayScene::batch_size) {
       const std::size_t count = std::min(shadows_ - begin, RayScene::batch_size);
-      const std::uint32_t hidden = rays_.occluded(std::span<const Ray>(space_.shadow_rays + begin, count));
+      const std::uint32_t hidden =
+          options_.shadows ? rays_.occluded(std::span<const Ray>(space_.shadow_rays + begin, count)) : 0;
       for (std::size_t i = 0; i < count; ++i) {
         const Candidate& candidate = space_.candidates[begin + i];
         if ((hidden >> i & 1) == 0) add(candidate.light, bounce, *candidate.path->sample);
@@ -254,9 +257,15 @@ class PathTracer {
     return ray;
   }
 
+  /// Without shadows a surface does not hide light from itself either.
+  bool may_go(const ShadingPoint& point, Vec3f direction) const {
+    return !options_.shadows || point.faces(direction);
+  }
+
   /// What the surface reflects of one light that was picked, if `shadow` meets nothing.
   Rgb direct_light(const ShadingPoint& point, const LightSample& light, Ray& shadow) const {
-    if (is_black(light.radiance) || !(light.pdf > 0) || !point.faces(light.direction)) return {};
+    if (is_black(light.radiance) || !(light.pdf > 0) || !may_go(point, light.direction)) return {};
+    if (!options_.shadows && (light.is_delta || light.distance < 1e30f)) return {};
     const Vec3f local = point.frame.to_local(light.direction);
     if (!(local.z > 0)) return {};
     const ScatterValue scattered = evaluate_with_pdf(*point.scatter, local, point.view);
@@ -276,7 +285,7 @@ class PathTracer {
     // The ray after the last reflection looks for lights that light samples do not count.
     if (last && options_.sampling == LightSampling::light && !next.is_delta()) return false;
     if (is_black(next.weight) || !(next.pdf > 0)) return false;
-    if (!point.faces(direction)) return false;
+    if (!may_go(point, direction)) return false;
     path.throughput *= next.weight;
     if (!last && bounce + 1 >= options_.roulette_bounce && !survives(path, stream.next_1d())) return false;
     path.pdf = next.pdf;
@@ -292,7 +301,7 @@ class PathTracer {
     const float keep = stream.next_1d();
     const ProductSample found = product_->environment.sample(*point.scatter, point.frame, point.view, u, keep,
                                                              along, path.product_density);
-    if (is_black(found.light) || !point.faces(found.direction)) return;
+    if (is_black(found.light) || !may_go(point, found.direction)) return;
     space_.shadow_rays[shadows_] = {leave_surface(point.surface, found.direction), 0, found.direction, 1e30f};
     space_.candidates[shadows_++] = {path.throughput * found.light, &path};
   }

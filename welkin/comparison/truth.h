@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+
+#include <welkin/image/image.h>
+#include <welkin/pathtrace/picture.h>
+#include <welkin/realtime/renderer.h>
+
+// The path tracer's picture of what a real-time technique shows: the truth that its error is measured against.
+
+namespace welkin {
+
+struct TruthOptions {
+  std::uint32_t samples = 64;        ///< a pixel
+  std::uint32_t seed = 0;
+  LightSampling sampling = LightSampling::mis;
+  float occlusion_distance = 1e30f;  ///< ambient_occlusion: how far a ray looks, metres
+  PictureObserver observer;          ///< false stops, and the picture has what it has
+};
+
+struct TruthPicture {
+  Image radiance;        ///< 3 channels; for Truth::ambient_occlusion the open share
+  Image standard_error;  ///< 3 channels: of the mean in `radiance`
+  Image coverage;        ///< 1 channel: share of the pixel's samples that met a surface
+};
+
+/// `scene` is what the technique shows (Renderer::prepared_scene), `radiance` the environment in the world, equirectangular.
+/// unshadowed and dynamic: IntegratorOptions::shadows = false. Pixels are means over their square (box filter). The
+/// environment is seen behind the scene.
+TruthPicture render_truth(const Scene& scene, Image radiance, const Camera& camera, PictureSize size,
+                          Truth truth, const TruthOptions& options = {});
+
+/// Of what the renderer last drew, by its own technique, camera and rotation; for Truth::dynamic by the environment that
+/// the technique captured. `light` is what set_environment was given; size: the truth's own, which the renderer's
+/// picture may have a multiple of. Throws Error where a dynamic technique has captured nothing yet.
+TruthPicture render_truth(const Renderer& renderer, const EnvironmentData& light, PictureSize size,
+                          const TruthOptions& options = {});
+
+}  // namespace welkin
