@@ -35,6 +35,28 @@ void add_drawing_options(CLI::App& sub, FrameCommand& command) {
       ->capture_default_str();
 }
 
+void add_measuring_options(CLI::App& sub, FrameCommand& command) {
+  sub.add_option(
+         "--reference", command.reference,
+         "Compare with the path tracer's picture of what the technique stands for, of so many samples a "
+         "pixel (256), or with FILE.exr, as welkin render writes it; FILE-truth and FILE-difference.png "
+         "are written beside the picture")
+      ->expected(0, 1)
+      ->default_str("256");
+  sub.add_option(
+         "--sheet", command.sheet,
+         "With --reference: picture, truth and difference side by side, with the errors: FILE.png or .jpg")
+      ->check(must_be_a_name);
+  sub.add_option("--shaders", command.shaders,
+                 "Write the technique's shaders, whole, as they were compiled, into this folder")
+      ->check(must_be_a_name);
+  sub.add_option("--times", command.timed_frames,
+                 "Draw so many more frames (9), and tell how long each pass takes: medians")
+      ->expected(0, 1)
+      ->default_str("9")
+      ->check(CLI::Range(1, 100000));
+}
+
 }  // namespace
 
 void add_frame_options(CLI::App& sub, FrameCommand& command) {
@@ -47,8 +69,9 @@ void add_frame_options(CLI::App& sub, FrameCommand& command) {
                  "FILE.exr (radiance, alpha: coverage by surfaces), FILE.hdr, or FILE.png to look at")
       ->check(must_be_a_name);
   add_tone_options(sub, command.exposure, command.curve);
+  add_measuring_options(sub, command);
   sub.add_flag("--list", command.list, "Tell all techniques with their parameters, sources and truths");
-  sub.add_flag("--json", command.json, "With --list: as JSON");
+  sub.add_flag("--json", command.json, "The figures, or the list, as JSON on standard output");
 }
 
 }  // namespace welkin

@@ -16,6 +16,11 @@ struct FrameCommand : SceneInput {
   std::string maps = "half";
   bool hide_environment = false;
   std::string output, exposure = "auto", curve = "filmic";
+  std::string reference;  ///< samples a pixel or a file; empty: the default
+  bool reference_given = false;
+  std::string sheet;     ///< file; empty: none
+  std::string shaders;   ///< folder; empty: none
+  int timed_frames = 0;  ///< 0: not timed
   bool list = false, json = false;
 };
 

@@ -1,5 +1,9 @@
 #include "frame_picture.h"
 
+#include <algorithm>
+#include <chrono>
+
+#include <welkin/comparison/picture_errors.h>
 #include <welkin/error.h>
 
 namespace welkin {
@@ -23,6 +27,18 @@ std::shared_ptr<const EnvironmentData> load_light(const FrameCommand& command,
   IblOptions options;
   options.size = command.map_size;
   return make_environment_data(std::move(environment.radiance), options);
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+double draw_and_wait(Renderer& renderer) {
+  const auto start = std::chrono::steady_clock::now();
+  renderer.draw();
+  wait_for_gl();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -54,17 +70,30 @@ std::unique_ptr<FrameJob> make_frame_job(const FrameCommand& command) {
 
 Image draw_picture(FrameJob& job, int supersample) {
   for (int frame = 0; frame < job.frames; ++frame) job.renderer->draw();
-  return average_blocks(job.renderer->read_picture(), supersample);
+  return mean_of_blocks(job.renderer->read_picture(), supersample);
 }
 
-Image average_blocks(const Image& image, int factor) {
-  Image mean(image.width / factor, image.height / factor, image.channels);
-  const float share = 1 / static_cast<float>(factor * factor);
-  for (int y = 0; y < mean.height * factor; ++y)
-    for (int x = 0; x < mean.width * factor; ++x)
-      for (int c = 0; c < image.channels; ++c)
-        mean.at(x / factor, y / factor)[c] += share * image.at(x, y)[c];
-  return mean;
+std::vector<FrameTime> time_passes(FrameJob& job, int frames) {
+  Renderer& renderer = *job.renderer;
+  std::vector<FrameTime> rows;
+  std::vector<std::vector<double>> times;  // of each pass
+  std::vector<double> whole;
+  for (int frame = 0; frame < frames; ++frame) {
+    renderer.timer().enabled = false;
+    whole.push_back(draw_and_wait(renderer));  // without the waits between the passes
+    renderer.timer().enabled = true;
+    renderer.draw();
+    const std::vector<PassTime>& passes = renderer.timer().passes();
+    if (frame == 0)
+      for (const PassTime& pass : passes) rows.push_back({pass.name, pass.depth, 0});
+    times.resize(rows.size());
+    for (std::size_t i = 0; i < std::min(passes.size(), rows.size()); ++i)
+      times[i].push_back(passes[i].milliseconds);
+  }
+  renderer.timer().enabled = false;
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].milliseconds = median(times[i]);
+  rows.push_back({"frame", 0, median(whole)});
+  return rows;
 }
 
 }  // namespace welkin

@@ -30,7 +30,13 @@ std::unique_ptr<FrameJob> make_frame_job(const FrameCommand& command);
 /// Draws all frames. 4 channels: radiance and the share of the pixel that shows a surface, means over the samples.
 Image draw_picture(FrameJob& job, int supersample);
 
-/// The mean of each factor x factor block.
-Image average_blocks(const Image& image, int factor);
+/// A pass of a frame and the median of its times; the last row is the whole frame.
+struct FrameTime {
+  std::string pass;
+  int depth = 0;
+  double milliseconds = 0;
+};
+/// Draws `frames` more.
+std::vector<FrameTime> time_passes(FrameJob& job, int frames);
 
 }  // namespace welkin

@@ -4,15 +4,11 @@
 
 namespace welkin {
 
-/// The signed difference of luminance in false colour: white 0, red where the picture is too bright, blue where it is too
-/// dark, full at +-full_scale (radiance) and darker up to twice that; gray where nothing is compared.
+/// The signed difference of luminance in the colours of signed_colors(): warm where the picture is too bright, blue where
+/// it is too dark, the ends at +-full_scale (radiance); gray where nothing is compared.
 ByteImage difference_picture(const Image& picture, const TruthPicture& truth, double full_scale);
 
-/// The colour of a difference as share of full_scale, in [-2, 2].
-void difference_colour(double share, std::uint8_t (&rgb)[3]);
-
-/// 1, 2 or 5 times a power of ten, the smallest that is not below the 99th percentile of the difference / truth_mean;
-/// times truth_mean that is a full_scale for difference_picture.
-double round_difference_scale(const PictureErrors& errors);
+/// The legend of difference_picture: its colours from -full_scale at the left to +full_scale.
+ByteImage difference_legend(int width, int height);
 
 }  // namespace welkin

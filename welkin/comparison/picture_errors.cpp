@@ -72,7 +72,8 @@ PictureErrors finish(Sums& sums, PictureErrors e) {
   std::nth_element(sums.absolutes.begin(), sums.absolutes.begin() + place, sums.absolutes.end());
   e.p99 = by_mean(double{sums.absolutes[static_cast<std::size_t>(place)]});
   e.largest = by_mean(double{*std::max_element(sums.absolutes.begin() + place, sums.absolutes.end())});
-  if (e.edge_pixels > 0) e.edge_mean_absolute = by_mean(sums.edges / (3 * static_cast<double>(e.edge_pixels)));
+  if (e.edge_pixels > 0)
+    e.edge_mean_absolute = by_mean(sums.edges / (3 * static_cast<double>(e.edge_pixels)));
   return e;
 }
 
@@ -88,6 +89,16 @@ Image compared_pixels(const Image& picture, const TruthPicture& truth) {
     compared.pixels[i] = full ? 1.0f : empty ? 0.0f : 0.5f;
   }
   return compared;
+}
+
+Image mean_of_blocks(const Image& image, int factor) {
+  Image mean(image.width / factor, image.height / factor, image.channels);
+  const float share = 1 / static_cast<float>(factor * factor);
+  for (int y = 0; y < mean.height * factor; ++y)
+    for (int x = 0; x < mean.width * factor; ++x)
+      for (int c = 0; c < image.channels; ++c)
+        mean.at(x / factor, y / factor)[c] += share * image.at(x, y)[c];
+  return mean;
 }
 
 PictureErrors compare_with_truth(const Image& picture, const TruthPicture& truth) {

@@ -15,7 +15,7 @@ struct PictureErrors {
   double bias = 0;              ///< mean difference / truth_mean
   double rms = 0;               ///< root mean square difference / root mean square of the truth
   double p99 = 0, largest = 0;  ///< of |difference|, the 99th percentile and the largest, / truth_mean
-  double flip = 0;        ///< mean of perceptual_difference, both at the truth's automatic exposure, filmic
+  double flip = 0;         ///< mean of perceptual_difference, both at the truth's automatic exposure, filmic
   double truth_noise = 0;  ///< what the truth's own standard error adds: its mean absolute value / truth_mean
   double edge_mean_absolute = 0;  ///< mean |difference| over edge pixels / truth_mean
 };
@@ -26,5 +26,9 @@ PictureErrors compare_with_truth(const Image& picture, const TruthPicture& truth
 
 /// 1 channel: 1 for pixels that are compared, 0.5 for edge pixels, else 0.
 Image compared_pixels(const Image& picture, const TruthPicture& truth);
+
+/// The mean of each factor x factor block: of a picture that was drawn so many times as large, what the path tracer's box filter
+/// gives. Width and height are multiples of factor >= 1.
+Image mean_of_blocks(const Image& image, int factor);
 
 }  // namespace welkin

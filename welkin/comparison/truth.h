@@ -10,7 +10,7 @@
 namespace welkin {
 
 struct TruthOptions {
-  std::uint32_t samples = 64;        ///< a pixel
+  std::uint32_t samples = 64;  ///< a pixel
   std::uint32_t seed = 0;
   LightSampling sampling = LightSampling::mis;
   float occlusion_distance = 1e30f;  ///< ambient_occlusion: how far a ray looks, metres
@@ -29,9 +29,14 @@ struct TruthPicture {
 TruthPicture render_truth(const Scene& scene, Image radiance, const Camera& camera, PictureSize size,
                           Truth truth, const TruthOptions& options = {});
 
+/// What this technique stands for with these values: its own truth, but Truth::direct for a technique of occlusion whose
+/// parameter "show" is at its choice "shaded".
+Truth truth_of(const TechniqueInfo& technique, const ParameterValues& values);
+
 /// Of what the renderer last drew, by its own technique, camera and rotation; for Truth::dynamic by the environment that
 /// the technique captured. `light` is what set_environment was given; size: the truth's own, which the renderer's
-/// picture may have a multiple of. Throws Error where a dynamic technique has captured nothing yet.
+/// picture may have a multiple of. A parameter "radius" of a technique of occlusion takes the place of
+/// options.occlusion_distance. Throws Error where a dynamic technique has captured nothing yet.
 TruthPicture render_truth(const Renderer& renderer, const EnvironmentData& light, PictureSize size,
                           const TruthOptions& options = {});
 

@@ -116,6 +116,10 @@ void Renderer::set_time(double seconds) {
 const Scene& Renderer::scene() const { return state_->source; }
 const Scene& Renderer::prepared_scene() const { return state_->prepared; }
 const TechniqueInfo& Renderer::technique() const { return *state_->info; }
+float Renderer::rotation_degrees() const {
+  return state_->rotation_radians * 180 / std::numbers::pi_v<float>;
+}
+const ParameterValues& Renderer::values() const { return state_->values; }
 const Camera& Renderer::camera() const { return state_->camera; }
 int Renderer::accumulated() const { return state_->accumulated; }
 bool Renderer::progressive() const {

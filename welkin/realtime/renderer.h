@@ -47,7 +47,9 @@ class Renderer {
   const Scene& scene() const;           ///< as given
   const Scene& prepared_scene() const;  ///< as the technique shows it: what the truth is rendered from
   const TechniqueInfo& technique() const;
+  const ParameterValues& values() const;  ///< of its parameters
   const Camera& camera() const;
+  float rotation_degrees() const;
 
   /// Draws one frame into the float picture. Scene, environment, technique and size must be set. Throws Error for what OpenGL reports.
   void draw();

@@ -9,7 +9,7 @@
 #include <welkin/image/loaded_image.h>
 
 // Pictures of low dynamic range: PNG and JPEG, read and written through libpng (png_read.cpp, png_write.cpp) and
-// TurboJPEG (jpeg_read.cpp).
+// TurboJPEG (jpeg_read.cpp, jpeg_write.cpp).
 
 namespace welkin {
 
@@ -28,5 +28,9 @@ Image decode_ldr_texture(std::span<const std::uint8_t> bytes, std::string_view n
 
 /// Encodes 8-bit gray (1 channel) or RGB (3) as PNG.
 std::vector<std::uint8_t> encode_png(const ByteImage& image);
+
+/// Encodes the same as a baseline JPEG with full colour (4:4:4); quality 1 to 100. For pictures in documents. Throws Error
+/// for sides above 65500.
+std::vector<std::uint8_t> encode_jpeg(const ByteImage& image, int quality = 85);
 
 }  // namespace welkin

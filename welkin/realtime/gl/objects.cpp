@@ -63,6 +63,8 @@ std::array<int, gl_kinds> living_gl_objects() {
   return counts;
 }
 
+void wait_for_gl() { glFinish(); }
+
 void check_gl(const char* where) {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;

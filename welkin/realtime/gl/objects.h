@@ -67,4 +67,7 @@ using GlQuery = GlObject<GlKind::query>;
 /// Throws Error with `where` and the name of the first OpenGL error since the last call, if there was one.
 void check_gl(const char* where);
 
+/// Returns when everything that was asked of the context is done: for whoever reads the clock.
+void wait_for_gl();
+
 }  // namespace welkin

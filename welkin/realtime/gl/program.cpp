@@ -3,10 +3,13 @@
 #include <algorithm>
 
 #include <welkin/error.h>
+#include <welkin/realtime/gl/shader_observer.h>
 #include <welkin/realtime/gl/shader_text.h>
 
 namespace welkin {
 namespace {
+
+ShaderObserver shader_observer = nullptr;
 
 // The first line of a driver's message that says something.
 std::string first_line(const std::string& log) {
@@ -29,6 +32,7 @@ void compile(const ShaderStage& stage, std::string_view file, std::string_view d
   text += defines;
   if (!defines.empty() && defines.back() != '\n') text += '\n';
   text += shader_text(file);
+  if (shader_observer != nullptr) shader_observer(file, text);
   const char* source = text.c_str();
   glShaderSource(stage.name, 1, &source, nullptr);
   glCompileShader(stage.name);
@@ -51,6 +55,8 @@ void link(const GlProgram& program, std::string_view file) {
 }
 
 }  // namespace
+
+void observe_shaders(ShaderObserver observer) { shader_observer = observer; }
 
 Program::Program(std::string_view vertex_file, std::string_view fragment_file, std::string_view defines)
     : program_(GlProgram::make()) {
