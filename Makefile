@@ -1,10 +1,11 @@
 # The short way in. Each target is one script in scripts/; the build itself is CMake (CMakePresets.json).
-.PHONY: help demo test bench asan fuzz format lint clean
+.PHONY: help demo gallery test bench asan fuzz format lint clean
 .NOTPARALLEL:
 FUZZ_SECONDS ?= 60
 
 help:
 	@echo "make demo    install what is missing, build, and turn the built-in sky into build/demo/index.html"
+	@echo "make gallery docs/gallery.md: every real-time technique beside its truth"
 	@echo "make test    the same set-up, then every test, then the fuzzers on repeatable inputs"
 	@echo "make bench   every benchmark: time and error side by side"
 	@echo "make asan    every test under address and undefined-behaviour sanitizers"
@@ -16,6 +17,11 @@ demo:
 	@scripts/install-deps
 	@scripts/build release -DWELKIN_BUILD_TESTS=OFF -DWELKIN_BUILD_BENCH=OFF
 	@scripts/demo
+
+gallery:
+	@scripts/install-deps
+	@scripts/build release -DWELKIN_BUILD_TESTS=OFF -DWELKIN_BUILD_BENCH=OFF
+	@scripts/gallery
 
 test:
 	@scripts/install-deps --test

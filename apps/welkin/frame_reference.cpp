@@ -52,7 +52,7 @@ TruthPicture read_truth(const std::string& name, PictureSize size) {
   return {*radiance, error != nullptr ? *error : Image(size.width, size.height, 3), *coverage};
 }
 
-std::string difference_caption(double share) { return fmt::format("-+ {:g} % of the mean", 100 * share); }
+std::string difference_caption(double share) { return fmt::format("-+ {:g} percent of the mean", 100 * share); }
 
 ByteImage toned(const Image& picture, const ToneMapOptions& tone) {
   Image rgb(picture.width, picture.height, 3);
@@ -125,7 +125,7 @@ ByteImage draw_sheet(const FrameReport& report, const Image& picture, const Trut
   const ByteImage parts[] = {toned(picture, options), toned(truth.radiance, options),
                              draw_difference(picture, truth, *report.errors)};
   const std::string captions[] = {report.technique, "truth: " + report.truth,
-                                  fmt::format("error {:.2g} %", 100 * report.errors->mean_absolute)};
+                                  fmt::format("error {:.2g} percent", 100 * report.errors->mean_absolute)};
   ByteImage sheet(3 * picture.width + 4 * margin, parts[2].height + line + margin, 3);
   for (int i = 0; i < 3; ++i) {
     const int x = margin + i * (picture.width + margin);
