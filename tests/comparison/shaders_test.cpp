@@ -25,7 +25,7 @@ std::set<std::pair<std::string, std::string>> seen;  // file, text
 
 void note(std::string_view file, const std::string& text) { seen.emplace(file, text); }
 
-/// The technique's parameters at their first values, then each choice of each parameter, and the ends of each number.
+/// The technique's parameters at their first values, then each choice of each parameter.
 std::vector<ParameterValues> variations(const TechniqueInfo& technique) {
   std::vector<ParameterValues> all{initial_values(technique)};
   for (std::size_t i = 0; i < technique.parameters.size(); ++i) {
@@ -40,7 +40,7 @@ std::vector<ParameterValues> variations(const TechniqueInfo& technique) {
 }
 
 void draw_all_variations() {
-  SmallRenderer small(16, 12);
+  SmallRenderer small(8, 6);
   for (const TechniqueInfo& technique : techniques()) {
     for (const ParameterValues& values : variations(technique)) {
       small.renderer.set_technique(technique, values);
