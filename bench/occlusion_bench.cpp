@@ -236,7 +236,7 @@ Truths find_truths(const Scene& scene, const Place& place, const GpuScene& gpu, 
   const Image depth = read_pixels(occlusion.geometry().target(), 0);
   truth.depth = depth;
   truth.known = make_depth_layer(depth, read_pixels(occlusion.geometry().target(), 1), view);
-  truth.scene = bench::traced_occlusion(scene, width, height, place.radius, 192);
+  truth.scene = bench::traced_occlusion(scene, width, height, place.radius, 256);
   truth.layer = trace_depth_layer(truth.known, {place.radius, place.thickness, 192});
   return truth;
 }
