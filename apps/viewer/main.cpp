@@ -24,6 +24,8 @@ namespace welkin {
 namespace {
 
 constexpr double idle_wait_seconds = 0.1;
+// For scripts: drawing the same again and again would take the processor from what they wait for.
+constexpr double scripted_wait_seconds = 0.02;
 
 class Application {
  public:
@@ -83,7 +85,7 @@ class Application {
   }
 
   void frame() {
-    window_.begin_frame(active_ ? 0 : idle_wait_seconds);
+    window_.begin_frame(active_ ? 0 : options_.frames > 0 ? scripted_wait_seconds : idle_wait_seconds);
     for (const std::string& file : window_.take_dropped_files()) session_.drop(file);
     const Area area = picture_area();
     const float points = window_.pixels_per_point();
@@ -99,7 +101,7 @@ class Application {
     // ImGui needs a frame or two after an event, and what is animated or refined every one.
     quiet_frames_ =
         changed || ImGui::IsAnyMouseDown() || ImGui::GetIO().WantTextInput ? 0 : quiet_frames_ + 1;
-    active_ = quiet_frames_ < 3 || options_.frames > 0;
+    active_ = quiet_frames_ < 3;
   }
 
   ViewOptions options_;

@@ -31,7 +31,7 @@ ViewRun run_shell(const std::filesystem::path& folder, const std::string& prefix
 }
 
 ViewRun run_on_display(const std::filesystem::path& folder, const std::string& arguments) {
-  return run_shell(folder, "timeout 120 xvfb-run -a -s '-screen 0 800x600x24'", arguments);
+  return run_shell(folder, "timeout 300 xvfb-run -a -s '-screen 0 800x600x24'", arguments);
 }
 
 std::size_t colours_of(const Image& image, int x0, int x1) {
