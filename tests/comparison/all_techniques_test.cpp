@@ -88,6 +88,12 @@ constexpr Tolerance tolerances[] = {
     {"ssao-sphere", "shader-ball", 1, 1, 0.5, "flat walls come out half open"},
     {"ssao-hemisphere", "shader-ball", 1, 1, 0.105, "only what the camera sees; far occluders darken"},
     {"ssao-range", "shader-ball", 1, 1, 0.09, "only what the camera sees"},
+    {"alchemy", "shader-ball", 1, 1, 0.5, "only what the camera sees"},
+    {"sao", "shader-ball", 1, 1, 0.5, "only what the camera sees"},
+    {"gtao", "shader-ball", 1, 1, 0.5, "only what the camera sees, as solid behind it"},
+    {"visibility-bitmask", "shader-ball", 1, 1, 0.5, "only what the camera sees, of one thickness"},
+    {"horizon-sectors", "shader-ball", 1, 1, 0.5, "only what the camera sees"},
+    {"ssao-irradiance", "shader-ball", 1, 1, 0.5, "one factor for light from all directions"},
 };
 
 PictureErrors measure(const Tolerance& row) {
