@@ -1,4 +1,8 @@
 # Everything welkin links, all from Debian 12 packages (scripts/install-deps says why each is there).
+if(EMSCRIPTEN)
+  include(WebDependencies)
+  return()
+endif()
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 find_package(OpenEXR REQUIRED)

@@ -51,6 +51,24 @@ TEST_F(EnvironmentFiles, SkiesNeedNoFile) {
   for (float v : e.radiance.pixels) ASSERT_EQ(v, 2);
 }
 
+TEST_F(EnvironmentFiles, APictureInMemoryIsTheSameAsItsFile) {
+  Image image(8, 4);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<float>(i);
+  const std::string path = save("ramp.exr", image);
+  const EnvironmentOptions turned{{}, 90};
+  const Environment from_memory = make_environment(load_image(path), "ramp", turned);
+  EXPECT_EQ(from_memory.radiance.pixels, load_environment(path, turned).radiance.pixels);
+  EXPECT_EQ(from_memory.source, "ramp");
+  LoadedImage square;
+  square.flat = Image(4, 4);
+  try {
+    make_environment(square, "square");
+    FAIL() << "its proportions fit no mapping";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.path(), "square");
+  }
+}
+
 TEST_F(EnvironmentFiles, ACubeCrossBecomesTheSamePanorama) {
   const SphereMap cube = labelled_map(map_shape(Mapping::cube, 64));
   const std::string path =

@@ -16,12 +16,8 @@ namespace welkin {
 namespace {
 
 // The map as it comes, in its own mapping.
-SphereMap read_map(std::string_view input, const EnvironmentOptions& options, Environment& environment) {
-  if (is_sky_spec(input)) {
-    environment.description = "built-in sky";
-    return {Mapping::equirectangular, make_sky(parse_sky(input))};
-  }
-  LoadedImage loaded = load_image(std::string(input));
+SphereMap map_of(LoadedImage loaded, std::string_view input, const EnvironmentOptions& options,
+                 Environment& environment) {
   environment.warnings = std::move(loaded.warnings);
   environment.description = loaded.format;
   if (loaded.is_cube()) return sphere_map_from_cube(std::move(loaded.cube.levels.front()));
@@ -62,11 +58,15 @@ MapShape equirect_shape(const MapShape& shape) {
   return map_shape(Mapping::equirectangular, std::max(1, 2 * across));
 }
 
-// Errors of the readers name the input already, those of skies, rotations and layouts do not.
-Environment load_unnamed(std::string_view input, const EnvironmentOptions& options) {
-  Environment environment;
+SphereMap read_map(std::string_view input, const EnvironmentOptions& options, Environment& environment) {
+  if (!is_sky_spec(input)) return map_of(load_image(std::string(input)), input, options, environment);
+  environment.description = "built-in sky";
+  return {Mapping::equirectangular, make_sky(parse_sky(input))};
+}
+
+Environment finish(SphereMap map, std::string_view input, const EnvironmentOptions& options,
+                   Environment environment) {
   environment.source = std::string(input);
-  SphereMap map = read_map(input, options, environment);
   check_shape(input, map, options.mapping.has_value());
   environment.description = fmt::format("{} {} x {}, {}", mapping_name(map.mapping), map.image.width,
                                         map.image.height, environment.description);
@@ -90,15 +90,33 @@ Environment load_unnamed(std::string_view input, const EnvironmentOptions& optio
   return environment;
 }
 
-}  // namespace
-
-Environment load_environment(std::string_view input, const EnvironmentOptions& options) {
+// Errors of the readers name the input already, those of skies, rotations and layouts do not.
+template <class Make>
+Environment with_name(std::string_view input, const Make& make) {
   try {
-    return load_unnamed(input, options);
+    return make();
   } catch (const Error& error) {
     if (!error.path().empty()) throw;
     throw Error(input, error.what());
   }
+}
+
+}  // namespace
+
+Environment load_environment(std::string_view input, const EnvironmentOptions& options) {
+  return with_name(input, [&] {
+    Environment environment;
+    SphereMap map = read_map(input, options, environment);
+    return finish(std::move(map), input, options, std::move(environment));
+  });
+}
+
+Environment make_environment(LoadedImage loaded, std::string_view name, const EnvironmentOptions& options) {
+  return with_name(name, [&] {
+    Environment environment;
+    SphereMap map = map_of(std::move(loaded), name, options, environment);
+    return finish(std::move(map), name, options, std::move(environment));
+  });
 }
 
 }  // namespace welkin

@@ -6,6 +6,7 @@
 
 #include <welkin/image/faults.h>
 #include <welkin/image/image.h>
+#include <welkin/image/loaded_image.h>
 #include <welkin/sphere/mapping.h>
 
 namespace welkin {
@@ -36,5 +37,9 @@ struct Environment {
 /// mapping and none was given, when it has faults and they are refused, when it is black all over, when it
 /// holds values above 1e30, and when the rotation is not finite.
 Environment load_environment(std::string_view input, const EnvironmentOptions& options = {});
+
+/// The same from a picture in memory; `name` is for messages and becomes `source`.
+Environment make_environment(LoadedImage loaded, std::string_view name,
+                             const EnvironmentOptions& options = {});
 
 }  // namespace welkin

@@ -150,7 +150,7 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
   if (size == 0) throw Error(path.string(), "is empty");
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
   stream.seekg(0);
-  stream.read(reinterpret_cast<char*>(bytes.data()), size);
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (stream.gcount() != size) fail(path, "cannot read", errno);
   return bytes;
 }

@@ -52,7 +52,8 @@ Chunks split_glb(std::span<const std::uint8_t> bytes, std::string_view name) {
 
 }  // namespace
 
-Scene decode_gltf(std::span<const std::uint8_t> bytes, std::string_view name, const FileResolver& resolve) {
+Scene decode_gltf(std::span<const std::uint8_t> bytes, std::string_view name, const FileResolver& resolve,
+                  const GltfPictures& pictures) {
   const bool is_glb = text_of(bytes).substr(0, 4) == "glTF";
   const Chunks chunks = is_glb ? split_glb(bytes, name) : Chunks{text_of(bytes), {}};
   const GltfDocument document = parse_gltf(chunks.json, name);
@@ -61,7 +62,7 @@ Scene decode_gltf(std::span<const std::uint8_t> bytes, std::string_view name, co
   scene.source = name;
   scene.warnings = document.warnings;
   const std::vector<GltfPlacement> placements = place_gltf_nodes(document, storage, scene);
-  build_gltf_materials(document, storage, scene);
+  build_gltf_materials(document, storage, pictures, scene);
   build_gltf_meshes(document, storage, placements, scene);
   if (scene.instances.empty()) throw Error(name, "has no triangles to show");
   check_scene(scene);

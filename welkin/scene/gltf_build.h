@@ -2,6 +2,7 @@
 #include <map>
 #include <tuple>
 
+#include <welkin/scene/gltf.h>
 #include <welkin/scene/gltf_storage.h>
 #include <welkin/scene/mesh_repair.h>
 
@@ -20,7 +21,8 @@ struct GltfPlacement {
 std::vector<GltfPlacement> place_gltf_nodes(const GltfDocument& document, GltfStorage& storage, Scene& scene);
 
 /// Materials, and the textures that they use.
-void build_gltf_materials(const GltfDocument& document, GltfStorage& storage, Scene& scene);
+void build_gltf_materials(const GltfDocument& document, GltfStorage& storage, const GltfPictures& pictures,
+                          Scene& scene);
 
 /// Meshes that are placed, and their instances.
 void build_gltf_meshes(const GltfDocument& document, GltfStorage& storage,

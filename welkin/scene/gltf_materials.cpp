@@ -12,8 +12,8 @@ namespace {
 
 class TextureTable {
  public:
-  TextureTable(const GltfDocument& document, GltfStorage& storage, Scene& scene)
-      : document_(document), storage_(storage), scene_(scene) {}
+  TextureTable(const GltfDocument& document, GltfStorage& storage, const GltfPictures& pictures, Scene& scene)
+      : document_(document), storage_(storage), pictures_(pictures), scene_(scene) {}
 
   // Turns a glTF texture index into one of the scene.
   void take(TextureUse& use, LdrEncoding encoding) {
@@ -37,12 +37,7 @@ class TextureTable {
     texture.name = !image.name.empty() ? image.name
                    : is_file           ? *image.uri
                                        : fmt::format("image {}", from.image);
-    std::vector<std::uint8_t> own;
-    if (image.uri) own = storage_.uri_bytes(*image.uri);
-    const std::span<const std::uint8_t> bytes =
-        image.uri ? std::span<const std::uint8_t>(own) : storage_.view_bytes(image.view);
-    texture.image =
-        decode_ldr_texture(bytes, fmt::format("{}: image {}", document_.name, from.image), encoding);
+    texture.image = pixels(image, from.image, encoding);
     pixels_ += std::int64_t{texture.image.width} * texture.image.height;
     if (pixels_ > max_pixel_count) throw Error(document_.name, "its textures have too many pixels together");
     if (from.sampler >= 0) {
@@ -53,6 +48,16 @@ class TextureTable {
     return static_cast<int>(scene_.textures.size()) - 1;
   }
 
+  Image pixels(const GltfImage& image, int index, LdrEncoding encoding) {
+    const auto decoded = pictures_.find(index);
+    if (decoded != pictures_.end()) return linear_texture(decoded->second, encoding);
+    std::vector<std::uint8_t> own;
+    if (image.uri) own = storage_.uri_bytes(*image.uri);
+    const std::span<const std::uint8_t> bytes =
+        image.uri ? std::span<const std::uint8_t>(own) : storage_.view_bytes(image.view);
+    return decode_ldr_texture(bytes, fmt::format("{}: image {}", document_.name, index), encoding);
+  }
+
   void warn_once(const char* text) {
     if (std::find(scene_.warnings.begin(), scene_.warnings.end(), text) == scene_.warnings.end())
       scene_.warnings.emplace_back(text);
@@ -60,6 +65,7 @@ class TextureTable {
 
   const GltfDocument& document_;
   GltfStorage& storage_;
+  const GltfPictures& pictures_;
   Scene& scene_;
   std::map<std::tuple<int, int, LdrEncoding>, int> made_;
   std::int64_t pixels_ = 0;
@@ -67,8 +73,9 @@ class TextureTable {
 
 }  // namespace
 
-void build_gltf_materials(const GltfDocument& document, GltfStorage& storage, Scene& scene) {
-  TextureTable textures(document, storage, scene);
+void build_gltf_materials(const GltfDocument& document, GltfStorage& storage, const GltfPictures& pictures,
+                          Scene& scene) {
+  TextureTable textures(document, storage, pictures, scene);
   for (Material material : document.materials) {
     textures.take(material.base_color_texture, LdrEncoding::srgb);
     textures.take(material.emission_texture, LdrEncoding::srgb);

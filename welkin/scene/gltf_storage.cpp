@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <limits>
 #include <string_view>
 
 #include <welkin/error.h>
@@ -73,7 +74,7 @@ void GltfStorage::fail(int accessor, std::string_view what) const {
 }
 
 void GltfStorage::spend(std::uint64_t values) {
-  if (values > budget_)
+  if (values > budget_ || values > std::numeric_limits<std::size_t>::max() / 64)
     throw Error(document_.name,
                 fmt::format("asks for more than {} times its size in vertices", values_per_byte));
   budget_ -= values;

@@ -53,7 +53,7 @@ Moments sample(const RadianceFunction& radiance, int channels, int max_degree, s
   const std::size_t functions = sh_count(max_degree);
   Moments all(functions * channels);
   for (std::uint64_t first = 0; first < count; first += batch) {
-    const std::size_t batch_count = std::min<std::uint64_t>(batch, count - first);
+    const auto batch_count = static_cast<std::size_t>(std::min<std::uint64_t>(batch, count - first));
     const auto partials = parallel_partials<Moments>(
         batch_count, grain, [&](Moments& moments, std::size_t begin, std::size_t end) {
           moments = Moments(functions * channels);

@@ -28,7 +28,7 @@ struct Order {
 
 constexpr int scale_bits = 800;
 constexpr double negligible = 1e-55;  // of values that reach about 1: sixteen degrees later still below 1e-25
-constexpr int max_parts = 8, most_block_rows = 128;
+constexpr int most_block_rows = 128;
 
 }  // namespace welkin::legendre
 #endif

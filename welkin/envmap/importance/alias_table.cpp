@@ -27,7 +27,7 @@ std::vector<double> all_weights(const TexelWeights& weights) {
 // to be given away. Thresholds are multiples of 2^-24, which is what the remainder of the numbers can be.
 AliasTable::AliasTable(const TexelWeights& weights) : width_(weights.map.width), height_(weights.map.height) {
   const std::size_t count = static_cast<std::size_t>(width_) * height_;
-  if (count >= (std::size_t{1} << 32)) throw Error("a map of more than 2^32 texels has no alias table");
+  if (std::uint64_t{count} >= std::uint64_t{1} << 32) throw Error("a map of more than 2^32 texels has no alias table");
   std::vector<double> share = all_weights(weights);
   double total = 0;
   for (double w : share) total += w;

@@ -5,11 +5,10 @@
 #include <sstream>
 #include <vector>
 
-#include <zstd.h>
-
 #include <welkin/error.h>
 #include <welkin/image/codecs/ktx2.h>
 #include <welkin/image/codecs/ktx2_format.h>
+#include <welkin/image/codecs/ktx2_zstd.h>
 #include <welkin/image/codecs/little_endian.h>
 #include <welkin/image/codecs/size_limit.h>
 #include <welkin/image/codecs/texture_surface.h>
@@ -120,19 +119,6 @@ float stored_scale(const Keys& keys, std::string_view name) {
   return static_cast<float>(scale);
 }
 
-// What the header claims is believed, and memory taken for it, only where the Zstandard frame says the same; a frame
-// that does not say its size (streams may not) is given what ordinary pictures, but not bombs, unpack to.
-void check_frame_size(Bytes stored, std::size_t expected, std::size_t level, std::string_view name) {
-  constexpr std::size_t most_per_unsized_byte = 1000;
-  const unsigned long long size = ZSTD_getFrameContentSize(stored.data(), stored.size());
-  const bool believable = size == ZSTD_CONTENTSIZE_UNKNOWN
-                              ? expected / most_per_unsized_byte <= stored.size()
-                              : size != ZSTD_CONTENTSIZE_ERROR && size == expected;
-  if (believable) return;
-  throw Error(name, "mip level " + std::to_string(level) + " of this KTX2 file cannot be decompressed to " +
-                        std::to_string(expected) + " bytes, which its header claims");
-}
-
 // The stored bytes of a level; `plain` keeps them where they had to be decompressed.
 Bytes level_bytes(Bytes file, const Header& header, std::size_t level, std::size_t expected,
                   std::vector<std::uint8_t>& plain, std::string_view name) {
@@ -145,12 +131,7 @@ Bytes level_bytes(Bytes file, const Header& header, std::size_t level, std::size
     throw Error(name, "mip level " + std::to_string(level) + " of this KTX2 file has the wrong size");
   }
   if (header.scheme == ktx2_scheme_none) return stored;
-  check_frame_size(stored, expected, level, name);
-  plain.resize(expected);
-  const std::size_t size = ZSTD_decompress(plain.data(), plain.size(), stored.data(), stored.size());
-  if (ZSTD_isError(size) != 0 || size != expected) {
-    throw Error(name, "mip level " + std::to_string(level) + " of this KTX2 file cannot be decompressed");
-  }
+  plain = decompress_ktx2_level(stored, expected, level, name);
   return plain;
 }
 

@@ -3,11 +3,10 @@
 #include <sstream>
 #include <vector>
 
-#include <zstd.h>
-
 #include <welkin/error.h>
 #include <welkin/image/codecs/ktx2.h>
 #include <welkin/image/codecs/ktx2_format.h>
+#include <welkin/image/codecs/ktx2_zstd.h>
 #include <welkin/image/codecs/little_endian.h>
 #include <welkin/image/codecs/texture_source.h>
 #include <welkin/image/codecs/texture_surface.h>
@@ -62,14 +61,6 @@ std::vector<std::uint8_t> key_value_data(std::map<std::string, std::string> entr
   return bytes;
 }
 
-std::vector<std::uint8_t> compressed(const std::vector<std::uint8_t>& bytes, int zstd_level) {
-  std::vector<std::uint8_t> out(ZSTD_compressBound(bytes.size()));
-  const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), zstd_level);
-  if (ZSTD_isError(size) != 0) throw Error(std::string("zstd cannot compress: ") + ZSTD_getErrorName(size));
-  out.resize(size);
-  return out;
-}
-
 struct EncodedLevel {
   std::vector<std::uint8_t> bytes;
   std::size_t plain_size = 0;
@@ -86,7 +77,7 @@ std::vector<EncodedLevel> encode_levels(const TextureSource& source, const Ktx2O
     level.plain_size = shape.bytes(pixel_layout(options.format));
     level.bytes.resize(level.plain_size);
     texture.clipped += encoder.encode(source.levels[k], shape, source.channels, factor, level.bytes);
-    if (options.zstd_level > 0) level.bytes = compressed(level.bytes, options.zstd_level);
+    if (options.zstd_level > 0) level.bytes = compress_ktx2_level(level.bytes, options.zstd_level);
     levels.push_back(std::move(level));
   }
   return levels;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <string>
 
@@ -74,6 +75,11 @@ LoadedImage decode_ldr(std::span<const std::uint8_t> bytes, std::string_view nam
 
 Image decode_ldr_texture(std::span<const std::uint8_t> bytes, std::string_view name, LdrEncoding encoding) {
   return to_linear(is_png(bytes, name) ? read_png(bytes, name, true) : read_jpeg(bytes, name), encoding);
+}
+
+Image linear_texture(const ByteImage& picture, LdrEncoding encoding) {
+  assert(picture.channels == 3 || picture.channels == 4);
+  return to_linear({picture.width, picture.height, 8, picture.channels, picture.pixels}, encoding);
 }
 
 }  // namespace welkin

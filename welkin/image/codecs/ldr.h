@@ -26,6 +26,9 @@ enum class LdrEncoding : std::uint8_t { srgb, linear };
 /// The same for a texture: linear values, 0 to 1, with 4 channels where a PNG has alpha (which is never encoded), else 3.
 Image decode_ldr_texture(std::span<const std::uint8_t> bytes, std::string_view name, LdrEncoding encoding);
 
+/// The same from a picture of 3 or 4 channels that somebody else (a browser) has decoded; alpha is straight.
+Image linear_texture(const ByteImage& picture, LdrEncoding encoding);
+
 /// Encodes 8-bit gray (1 channel) or RGB (3) as PNG.
 std::vector<std::uint8_t> encode_png(const ByteImage& image);
 

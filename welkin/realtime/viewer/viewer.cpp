@@ -199,24 +199,24 @@ void Viewer::draw() {
   if (state.comparison != Comparison::picture && has_reference() && s.measurement_is_due()) measure();
 }
 
-void Viewer::State::draw_main(ViewerState& state, bool changed) {
+void Viewer::State::draw_main(ViewerState& wanted, bool changed) {
   try {
-    if (drawn_view == 0 || !same(state.technique, applied.technique))
-      main.set_technique(*state.technique.technique, state.technique.values);
-    if (changed) take_over(main, state, to_camera(state.camera, proportion(width, height)));
+    if (drawn_view == 0 || !same(wanted.technique, applied.technique))
+      main.set_technique(*wanted.technique.technique, wanted.technique.values);
+    if (changed) take_over(main, wanted, to_camera(wanted.camera, proportion(width, height)));
     main.draw();
   } catch (const Error&) {
     // The renderer may have taken the new one over already: a change of the view makes it take the old one again.
     if (last_good.technique != nullptr) {
-      applied.technique = state.technique;
-      state.technique = last_good;
+      applied.technique = wanted.technique;
+      wanted.technique = last_good;
       ++view;
     }
     throw;
   }
 }
 
-void Viewer::State::draw_other(ViewerState& state, bool changed) {
+void Viewer::State::draw_other(ViewerState& wanted, bool changed) {
   try {
     const bool anew = !other;
     if (anew) {
@@ -225,16 +225,16 @@ void Viewer::State::draw_other(ViewerState& state, bool changed) {
       other->set_environment(light);
       other->resize(width, height);
     }
-    if (anew || !same(state.reference_technique, applied.reference_technique))
-      other->set_technique(*state.reference_technique.technique, state.reference_technique.values);
+    if (anew || !same(wanted.reference_technique, applied.reference_technique))
+      other->set_technique(*wanted.reference_technique.technique, wanted.reference_technique.values);
     // A comparison that was left for a while has missed changes.
     if (anew || changed || other_view != view)
-      take_over(*other, state, to_camera(state.camera, proportion(width, height)));
+      take_over(*other, wanted, to_camera(wanted.camera, proportion(width, height)));
     other->draw();
     other_view = view;
   } catch (const Error&) {
     other.reset();
-    state.comparison = Comparison::picture;
+    wanted.comparison = Comparison::picture;
     throw;
   }
 }
