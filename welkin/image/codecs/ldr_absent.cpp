@@ -2,7 +2,7 @@
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/codecs/ldr_samples.h>
 
-// Stands for png_read.cpp, png_write.cpp and jpeg_read.cpp where there is no libpng and no TurboJPEG (the web build,
+// Stands for png_read.cpp, png_write.cpp, jpeg_read.cpp and jpeg_write.cpp where there is no libpng and no TurboJPEG (the web build,
 // where the browser decodes pictures).
 
 namespace welkin {
@@ -17,5 +17,9 @@ namespace {
 LdrSamples read_png(std::span<const std::uint8_t>, std::string_view name, bool) { refuse(name); }
 LdrSamples read_jpeg(std::span<const std::uint8_t>, std::string_view name) { refuse(name); }
 std::vector<std::uint8_t> encode_png(const ByteImage&) { throw Error("PNG cannot be written by this build"); }
+
+std::vector<std::uint8_t> encode_jpeg(const ByteImage&, int) {
+  throw Error("JPEG cannot be written by this build");
+}
 
 }  // namespace welkin
