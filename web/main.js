@@ -17,6 +17,7 @@ let gl;
 let lost = false;
 let lastTime = 0;
 let reportDue = 0;
+let reportWanted = false;
 let forced = true;  // what is shown has changed though the picture has not
 
 const say = (text) => { $('status').textContent = text; };
@@ -190,6 +191,11 @@ function showReport() {
 function tick(now) {
   requestAnimationFrame(tick);
   if (lost) return;
+  if (reportWanted && now >= reportDue) {
+    reportWanted = false;
+    reportDue = now + 250;
+    showReport();
+  }
   fitCanvas();
   if (!forced && library.call('needs_draw') === 0) return;
   const seconds = lastTime ? Math.min((now - lastTime) / 1000, 0.1) : 0;
@@ -201,9 +207,7 @@ function tick(now) {
     complain(error);
   }
   document.documentElement.dataset.frames = String(Number(document.documentElement.dataset.frames ?? 0) + 1);
-  if (now < reportDue) return;
-  reportDue = now + 250;
-  showReport();
+  reportWanted = true;
 }
 
 // ---- The context

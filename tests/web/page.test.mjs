@@ -70,21 +70,14 @@ test('a dropped .hdr lights the scene', async () => {
 });
 
 test('a dropped .exr is decoded row by row from the top', async () => {
-  await withPage('?size=64&maps=64&technique=mirror', {}, async (page) => {
+  await withPage('?size=64&maps=64&scene=plane', {}, async (page) => {
     await waitForLight(page, builtIn);
     // Blue above the horizon, red below.
     await drop(page, 'halves.exr', makeExr(64, 32, (x, y) => (y < 16 ? [0.1, 0.1, 2] : [2, 0.1, 0.1])));
     await waitForLight(page, 'halves.exr');
-    await page.evaluate(() => {
-      const { library } = globalThis.welkin;
-      library.run('orbit', 0, 0.0001);
-      library.run('frame', 0);
-    });
-    const shown = await look(page);
-    const top = pixel(shown, 2, 1);
-    const bottom = pixel(shown, 2, 62);
-    assert.ok(top[2] > top[0] + 40 || bottom[0] > bottom[2] + 40, `${top} ${bottom}`);
-    assert.ok(!(top[0] > top[2]), `the sky is upside down: ${top}`);
+    await page.waitForTimeout(500);
+    const [r, , b] = pixel(await look(page), 2, 1);  // above the horizon
+    assert.ok(b > r + 40, `the sky is upside down: red ${r}, blue ${b}`);
   });
 });
 

@@ -6,7 +6,7 @@ import test, { after, before } from 'node:test';
 import { launch, openPage, serve, waitForLight } from './browser.mjs';
 import { nativePrograms, pictures } from './places.mjs';
 
-const size = 96, maps = 64, scene = 'spheres';
+const size = 64, maps = 64, scene = 'spheres';
 const native = `${pictures}/native`;
 
 let server;
