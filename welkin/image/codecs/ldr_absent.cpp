@@ -2,8 +2,8 @@
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/codecs/ldr_samples.h>
 
-// Stands for png_read.cpp, png_write.cpp, jpeg_read.cpp and jpeg_write.cpp where there is no libpng and no TurboJPEG (the web build,
-// where the browser decodes pictures).
+// Stands for the files of libpng (png_read.cpp, png_write.cpp) and TurboJPEG (jpeg_read.cpp, jpeg_write.cpp) where there are
+// no such libraries: the web build, where the browser decodes pictures.
 
 namespace welkin {
 namespace {
