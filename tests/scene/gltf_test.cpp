@@ -111,23 +111,6 @@ TEST(Gltf, MaterialsAndTextures) {
   EXPECT_TRUE(color.nearest);
 }
 
-TEST(Gltf, PicturesThatSomebodyElseDecodedAreTaken) {
-  ByteImage picture(1, 1, 4);
-  picture.pixels = {255, 0, 51, 102};
-  // What the file holds is not even looked at.
-  std::string text = quad_gltf("quad%20data.bin");
-  text = replaced(text, "data:image/png;base64,", "none.png?");
-  const Scene scene = decode_gltf(to_bytes(text), "test", resolve_quad, {{0, picture}});
-  const Material& m = scene.materials[0];
-  const Image& color = scene.textures[m.base_color_texture.texture].image;
-  const Image& numbers = scene.textures[m.normal_texture.texture].image;
-  EXPECT_EQ(color.channels, 4);
-  EXPECT_EQ(color.pixels[0], 1);
-  EXPECT_NEAR(color.pixels[2], 0.0331f, 1e-4f);  // 0.2 through the sRGB curve
-  EXPECT_EQ(numbers.pixels[2], 0.2f);
-  EXPECT_EQ(color.pixels[3], 0.4f);  // alpha is no colour
-}
-
 // One triangle list, strip or fan over the same five vertices.
 std::string shape_gltf(const std::string& primitive) {
   const SceneBytes buffer = Packed().floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 2, 1, 0, 2, 2, 1}).bytes();
@@ -272,6 +255,23 @@ TEST(Gltf, ManyInstancesOfOneNode) {
   ASSERT_EQ(scene.instances.size(), 3u);
   EXPECT_EQ(scene.instances[2].to_world.origin, (Vec3f{0, 7, 1}));
   EXPECT_EQ(scene.instances[1].to_world.y, (Vec3f{0, 2, 0}));
+}
+
+TEST(Gltf, PicturesThatSomebodyElseDecodedAreTaken) {
+  ByteImage picture(1, 1, 4);
+  picture.pixels = {255, 0, 51, 102};
+  // What the file holds is not even looked at.
+  std::string text = quad_gltf("quad%20data.bin");
+  text = replaced(text, "data:image/png;base64,", "none.png?");
+  const Scene scene = decode_gltf(to_bytes(text), "test", resolve_quad, {{0, picture}});
+  const Material& m = scene.materials[0];
+  const Image& color = scene.textures[m.base_color_texture.texture].image;
+  const Image& numbers = scene.textures[m.normal_texture.texture].image;
+  EXPECT_EQ(color.channels, 4);
+  EXPECT_EQ(color.pixels[0], 1);
+  EXPECT_NEAR(color.pixels[2], 0.0331f, 1e-4f);  // 0.2 through the sRGB curve
+  EXPECT_EQ(numbers.pixels[2], 0.2f);
+  EXPECT_EQ(color.pixels[3], 0.4f);  // alpha is no colour
 }
 
 }  // namespace
