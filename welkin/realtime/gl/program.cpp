@@ -115,6 +115,9 @@ void Program::set_linear(const char* uniform, const Affine& a) const {
 void Program::set_vec3_array(const char* uniform, const std::vector<Vec3f>& values) const {
   if (!values.empty()) glUniform3fv(place(uniform), static_cast<GLsizei>(values.size()), &values.front().x);
 }
+void Program::set_float_array(const char* uniform, const std::vector<float>& values) const {
+  if (!values.empty()) glUniform1fv(place(uniform), static_cast<GLsizei>(values.size()), values.data());
+}
 void Program::set_texture(const char* uniform, int unit, GLenum target, const GlTexture& texture) const {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(target, texture.name());

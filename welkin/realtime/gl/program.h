@@ -44,6 +44,7 @@ class Program {
   /// The columns of the linear part as a mat3.
   void set_linear(const char* uniform, const Affine& value) const;
   void set_vec3_array(const char* uniform, const std::vector<Vec3f>& values) const;
+  void set_float_array(const char* uniform, const std::vector<float>& values) const;
   /// A sampler: binds the texture to `unit` and tells the program.
   void set_texture(const char* uniform, int unit, GLenum target, const GlTexture& texture) const;
 

@@ -3,6 +3,7 @@
 
 #include <welkin/envmap/zonal_kernel.h>
 #include <welkin/realtime/capture/dynamic_light.h>
+#include <welkin/realtime/techniques/dynamic_choices.h>
 #include <welkin/realtime/techniques/technique_list.h>
 
 // Dynamic irradiance maps (King 2005): the surroundings are captured, projected to spherical harmonics, convolved and turned back into a cube map each frame.
@@ -102,8 +103,6 @@ void make_phong_materials(Scene& scene) {
   }
 }
 
-constexpr std::string_view around[] = {"none", "flares", "room", "carousel"};
-constexpr std::string_view skies[] = {"map", "day"};
 constexpr std::string_view inputs[] = {"cube", "paraboloid", "paraboloid-warped"};
 constexpr std::string_view projections[] = {"tiled", "staged", "compute"};
 

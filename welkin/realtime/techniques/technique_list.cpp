@@ -13,6 +13,7 @@ std::span<const TechniqueInfo> techniques() {
              dynamic_irradiance_techniques(),
              power_lobe_techniques(),
              stretched_techniques(),
+             dynamic_glossy_techniques(),
              occlusion_techniques(),
              importance_techniques(),
              bump_techniques(),

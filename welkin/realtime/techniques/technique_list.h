@@ -15,7 +15,8 @@ std::span<const TechniqueInfo>
 power_lobe_techniques();  ///< power_lobes.cpp: prefiltered-phong, fresnel-blend, lafortune
 std::span<const TechniqueInfo> stretched_techniques();  ///< stretched.cpp: stretched
 
-std::span<const TechniqueInfo> occlusion_techniques();  ///< occlusion.cpp: ssao-sphere, gtao, ...
+std::span<const TechniqueInfo> dynamic_glossy_techniques();  ///< dynamic_glossy.cpp: dynamic-glossy
+std::span<const TechniqueInfo> occlusion_techniques();       ///< occlusion.cpp: ssao-sphere, gtao, ...
 
 std::span<const TechniqueInfo> bump_supersampled_techniques();  ///< bump_supersampled.cpp
 std::span<const TechniqueInfo> bump_techniques();  ///< bump.cpp: bump-naive, toksvig, lean, schilling, ...
