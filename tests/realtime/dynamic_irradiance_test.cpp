@@ -212,8 +212,53 @@ TEST(DynamicIrradiance, PictureIsLitByTheCapturedEnvironment) {
         sum += 0.25 * truth[c] * truth[c];
       }
     }
-    EXPECT_GT(pixels, 350);                   // flares may be in front of some
+    EXPECT_GT(pixels, 350);                    // flares may be in front of some
     EXPECT_LT(std::sqrt(error / sum), 0.045);  // degrees above 4
+  }
+  expect_nothing_left();
+}
+
+// (N + 2) / (2 pi) cos^N about the mirrored view times the cosine to the normal, summed over the texels.
+std::array<double, 3> phong_radiance(const Cube& light, Vec3 normal, double exponent) {
+  const Vec3 mirrored = 2 * normal.z * normal - Vec3{0, 0, 1};
+  std::array<double, 3> sum{};
+  for (int i = 0; i < 6 * light.size * light.size; ++i) {
+    const int face = i / (light.size * light.size), y = i / light.size % light.size, x = i % light.size;
+    const Vec3 towards = cube_texel_direction(light.size, face, x, y);
+    const double lobe = std::max(0.0, dot(towards, mirrored)), cosine = std::max(0.0, dot(towards, normal));
+    const double weight = (exponent + 2) / (2 * std::numbers::pi) * std::pow(lobe, exponent) * cosine *
+                          cube_texel_solid_angle(light.size, x, y);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * static_cast<double>(light.at(face, x, y)[c]);
+  }
+  return sum;
+}
+
+TEST(DynamicIrradiance, PhongsLobeNearItsSumOverTheCapture) {
+  const HeadlessContext context;
+  {
+    Renderer renderer({TexelFormat::rgba32f, TexelFormat::rgba16f});
+    const TechniqueChoice choice = parse_technique("dynamic-phong:around=none,size=16");
+    renderer.set_technique(*choice.technique, choice.values);
+    const Scene scene = lone_sphere({});
+    renderer.set_camera(scene.cameras[0]);
+    renderer.set_scene(scene);
+    renderer.set_environment(noise_light());
+    renderer.resize(16, 16);
+    renderer.draw();
+    const Image picture = renderer.read_picture();
+    const Cube light = renderer.captured_environment();
+    double error = 0, sum = 0;
+    for (int i = 0; i < 16 * 16; ++i) {
+      const auto normal = lone_sphere_normal(16, i % 16, i / 16);
+      if (!normal) continue;
+      const auto truth = phong_radiance(light, *normal, 20);
+      for (std::size_t c = 0; c < 3; ++c) {
+        error += std::pow(static_cast<double>(picture.at(i % 16, i / 16)[c]) - truth[c], 2);
+        sum += truth[c] * truth[c];
+      }
+    }
+    // The cosine is taken at the lobe's mean direction, degrees above 7 are left out.
+    EXPECT_LT(std::sqrt(error / sum), 0.12);
   }
   expect_nothing_left();
 }
