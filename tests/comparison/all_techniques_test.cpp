@@ -85,6 +85,7 @@ constexpr Tolerance tolerances[] = {
     {"lean", "bumpy", 1, 1, 0.1, "roughness from two moments of the slopes"},
     {"dynamic-irradiance", "spheres", 1, 1, 0.085, "degree 2"},
     {"dynamic-phong", "spheres", 1, 1, 0.3, "degree 2"},
+    {"dynamic-glossy", "spheres", 3, 1, 0.16, "16 taps a texel, lobes blended between levels; irradiance of degree 2"},
     {"ssao-sphere", "shader-ball", 1, 1, 0.5, "flat walls come out half open"},
     {"ssao-hemisphere", "shader-ball", 1, 1, 0.105, "only what the camera sees; far occluders darken"},
     {"ssao-range", "shader-ball", 1, 1, 0.09, "only what the camera sees"},
