@@ -13,7 +13,7 @@ namespace {
 
 using namespace welkin;
 
-constexpr int width = 120, height = 80, reference_samples = 4096;
+constexpr int width = 60, height = 40, reference_samples = 2048;
 constexpr int sample_counts[] = {1, 16, 64, 256};
 
 struct Strategy {
@@ -120,7 +120,7 @@ int main(int argc, char** argv) try {
   renderer.set_camera(scene.cameras[0]);
   renderer.set_scene(scene);
   renderer.resize(width, height);
-  for (const char* sky : {"sky:day,size=512x256", "sky:studio,size=512x256"})
+  for (const char* sky : {"sky:day,size=128x64", "sky:studio,size=128x64"})
     bench_map(report, renderer, sky);
   for (int i = 1; i < argc; ++i) bench_map(report, renderer, argv[i]);
   return report.exit_code();

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <optional>
 #include <string>
 
+#include <welkin/image/srgb.h>
 #include <welkin/realtime/gl/headless_context.h>
 #include <welkin/scene/built_in.h>
 #include <welkin/scene/shapes.h>
@@ -21,7 +24,7 @@ constexpr int width = 72, height = 54;
 constexpr RendererOptions exact{TexelFormat::rgba32f, TexelFormat::rgba32f};
 
 // Irradiance pi (1 + n) / 2: under it white diffuse surfaces show (1 + n) / 2.
-std::shared_ptr<const EnvironmentData> normals_light() {
+std::shared_ptr<const EnvironmentData> make_normals_light() {
   Image white(16, 8);
   std::fill(white.pixels.begin(), white.pixels.end(), 1.0f);
   auto data = std::make_shared<EnvironmentData>(*oracle::small_environment(std::move(white)));
@@ -38,6 +41,11 @@ std::shared_ptr<const EnvironmentData> normals_light() {
   return data;
 }
 
+const std::shared_ptr<const EnvironmentData>& normals_light() {
+  static const std::shared_ptr<const EnvironmentData> light = make_normals_light();
+  return light;
+}
+
 void make_white(Scene& scene) {
   for (Material& m : scene.materials) {
     m.model = MaterialModel::lambert;
@@ -48,17 +56,26 @@ void make_white(Scene& scene) {
   }
 }
 
-Image drawn(const Scene& scene, const std::shared_ptr<const EnvironmentData>& light) {
-  Renderer renderer(exact);
-  renderer.set_technique(find_technique("irradiance-map"), {});
-  renderer.set_camera(scene.cameras[0]);
-  renderer.set_scene(scene);
-  renderer.set_environment(light);
-  renderer.resize(width, height);
-  renderer.show_background = false;
-  renderer.draw();
-  return renderer.read_picture();
-}
+// One renderer for all that a test draws: its shaders are compiled once.
+class SceneShading : public testing::Test {
+ protected:
+  Image drawn(const Scene& scene, const std::shared_ptr<const EnvironmentData>& light) {
+    if (!renderer_) renderer_.emplace(exact);
+    renderer_->set_technique(find_technique("irradiance-map"), {});
+    renderer_->set_camera(scene.cameras[0]);
+    renderer_->set_scene(scene);
+    renderer_->set_environment(light);
+    renderer_->resize(width, height);
+    renderer_->show_background = false;
+    renderer_->draw();
+    return renderer_->read_picture();
+  }
+  void expect_same_normals(const Scene& scene, const std::string& what, double share_of_edges, double mean);
+
+ private:
+  HeadlessContext context_;
+  std::optional<Renderer> renderer_;
+};
 
 struct NormalErrors {
   int compared = 0;
@@ -67,9 +84,7 @@ struct NormalErrors {
   double mean = 0;         ///< distance of the others' normals
 };
 
-NormalErrors normal_errors(Scene scene) {
-  make_white(scene);
-  const Image picture = drawn(scene, normals_light());
+NormalErrors normal_errors(const Scene& scene, const Image& picture) {
   const RenderScene traced(scene, nullptr);
   NormalErrors errors;
   for (int y = 0; y < height; ++y)
@@ -120,8 +135,11 @@ Scene bumpy_square(const Affine& to_world) {
   return scene;
 }
 
-void expect_same_normals(const Scene& scene, const std::string& what, double share_of_edges, double mean) {
-  const NormalErrors errors = normal_errors(scene);
+void SceneShading::expect_same_normals(const Scene& scene, const std::string& what, double share_of_edges,
+                                       double mean) {
+  Scene white = scene;
+  make_white(white);
+  const NormalErrors errors = normal_errors(white, drawn(white, normals_light()));
   EXPECT_GT(errors.compared, width * height / 10) << what;
   EXPECT_LE(errors.other_coverage, 0.01 * width * height) << what;
   EXPECT_LE(errors.beyond, share_of_edges * errors.compared) << what;
@@ -131,8 +149,7 @@ void expect_same_normals(const Scene& scene, const std::string& what, double sha
 // Bilinear look-ups with weights of 8 bits, and irradiance interpolated between texels 1.4 degrees apart.
 constexpr double flat_error = 2e-3;
 
-TEST(SceneShading, NormalMapsLeanAsThePathTracersWhereverTheMeshIsPlaced) {
-  const HeadlessContext context;
+TEST_F(SceneShading, NormalMapsLeanAsThePathTracersWhereverTheMeshIsPlaced) {
   const float c = std::cos(0.7f), s = std::sin(0.7f);
   const std::pair<const char*, Affine> places[] = {
       {"as it is", {}},
@@ -147,15 +164,13 @@ TEST(SceneShading, NormalMapsLeanAsThePathTracersWhereverTheMeshIsPlaced) {
   for (const auto& [name, place] : places) expect_same_normals(bumpy_square(place), name, 0.001, flat_error);
 }
 
-TEST(SceneShading, OrthographicCamerasShowTheSameNormals) {
-  const HeadlessContext context;
+TEST_F(SceneShading, OrthographicCamerasShowTheSameNormals) {
   Scene scene = bumpy_square({{1.2f, 0, 0.5f}, {0.3f, 0.8f, 0}, {0, 0.2f, 0.5f}, {}});
   scene.cameras[0].orthographic_height = 2.5f;
   expect_same_normals(scene, "leaning", 0.001, flat_error);
 }
 
-TEST(SceneShading, SpheresAreTexturedAsThePathTracers) {
-  const HeadlessContext context;
+TEST_F(SceneShading, SpheresAreTexturedAsThePathTracers) {
   Scene scene = bumpy_square({});
   scene.instances.clear();
   scene.meshes.clear();
@@ -165,24 +180,21 @@ TEST(SceneShading, SpheresAreTexturedAsThePathTracers) {
 }
 
 // Normals against the winding count as the triangle's side says.
-TEST(SceneShading, NormalsAreOnTheTrianglesSide) {
-  const HeadlessContext context;
+TEST_F(SceneShading, NormalsAreOnTheTrianglesSide) {
   Scene scene = bumpy_square({{0.9f, 0, 0.4f}, {0, 1, 0}, {-0.4f, 0, 0.9f}, {}});
   scene.meshes[0].normals.assign(4, {0, 0, -1});
   expect_same_normals(scene, "normals inwards", 0.001, flat_error);
 }
 
 // One half of the square lies behind the eye's plane, where parallel rays begin.
-TEST(SceneShading, OrthographicCamerasSeeNothingBehindThem) {
-  const HeadlessContext context;
+TEST_F(SceneShading, OrthographicCamerasSeeNothingBehindThem) {
   Scene scene = bumpy_square({{1, 0, 1}, {0, 1, 0}, {0, 0, 1}, {}});
   scene.cameras[0].to_world.origin = {0, 0, 0};
   scene.cameras[0].orthographic_height = 2.5f;
   expect_same_normals(scene, "half behind", 0.001, flat_error);
 }
 
-TEST(SceneShading, OneSidedLightsEmitFromTheFront) {
-  const HeadlessContext context;
+TEST_F(SceneShading, OneSidedLightsEmitFromTheFront) {
   Scene scene = bumpy_square({{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {}});  // from behind
   Material& light = scene.materials[0];
   light.base_color = {0, 0, 0};
@@ -198,8 +210,100 @@ TEST(SceneShading, OneSidedLightsEmitFromTheFront) {
   EXPECT_EQ(middle(scene), 2);
 }
 
-TEST(SceneShading, BuiltInScenesHaveThePathTracersNormals) {
-  const HeadlessContext context;
+std::shared_ptr<const EnvironmentData> white_light() {
+  Image white(16, 8);
+  std::fill(white.pixels.begin(), white.pixels.end(), 1.0f);
+  return oracle::small_environment(std::move(white));
+}
+
+// A square with a texture of colours that 8-bit sRGB has exactly (as files give them), or in between.
+Scene textured_square(int size, bool eight_bit, const std::function<float(int, int, int)>& level) {
+  Scene scene = bumpy_square({});
+  Image image(size, size, 4);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x)
+      for (int c = 0; c < 4; ++c) {
+        const double value = eight_bit ? std::round(255 * level(x, y, c)) / 255 : level(x, y, c);
+        image.at(x, y)[c] = static_cast<float>(c < 3 ? srgb_to_linear(value) : value);
+      }
+  scene.textures = {{"colours", image, TextureWrap::repeat, TextureWrap::repeat, false}};
+  Material& m = scene.materials[0];
+  m = {};
+  m.model = MaterialModel::lambert;
+  m.base_color_texture.texture = 0;
+  return scene;
+}
+
+float mixed_level(int x, int y, int c) {
+  return c == 3
+             ? 1.0f
+             : 0.5f + 0.5f * std::sin(0.9f * static_cast<float>(x * (c + 1)) + 1.7f * static_cast<float>(y));
+}
+
+// Magnified: the same bilinear look-ups, with the texture turned, scaled and moved (KHR_texture_transform).
+TEST_F(SceneShading, ColoursOfTexturesAreThePathTracers) {
+  for (const bool eight_bit : {true, false}) {
+    Scene scene = textured_square(8, eight_bit, mixed_level);
+    TextureUse& use = scene.materials[0].base_color_texture;
+    use.offset = {0.2f, -0.3f};
+    use.scale = {0.9f, 1.3f};
+    use.rotation_radians = 0.5f;
+    const Image picture = drawn(scene, white_light());
+    const RenderScene traced(scene, nullptr);
+    double largest = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const auto point = oracle::point_at_pixel(traced, scene.cameras[0], {width, height}, x, y);
+        const bool both = point && picture.at(x, y)[3] == 1;
+        for (int c = 0; c < 3 && both; ++c) {
+          const float wanted = c == 0   ? point->scatter->color.r
+                               : c == 1 ? point->scatter->color.g
+                                        : point->scatter->color.b;
+          largest = std::max(largest, std::abs(double{picture.at(x, y)[c]} - wanted));
+        }
+      }
+    EXPECT_GT(picture.at(width / 2, height / 2)[0], 0);
+    // Weights of bilinear look-ups have 8 bits, of both axes; E and half floats are off by 1e-3.
+    EXPECT_LT(largest, 0.012) << eight_bit;
+  }
+}
+
+// A chequer finer than pixels is half its white, in linear light: averaged as sRGB codes it would be a fifth.
+TEST_F(SceneShading, FineTexturesAreAveragedInLinearLight) {
+  for (const bool eight_bit : {true, false}) {
+    const float white = eight_bit ? 1.0f : 0.9999f;
+    Scene scene = textured_square(
+        256, eight_bit, [&](int x, int y, int c) { return c == 3 || ((x + y) & 1) != 0 ? white : 0.0f; });
+    const Image picture = drawn(scene, white_light());
+    EXPECT_NEAR(picture.at(width / 2, height / 2)[1], 0.5, 5e-3) << eight_bit;
+    EXPECT_NEAR(picture.at(width / 2 + 5, height / 2 - 7)[1], 0.5, 5e-3) << eight_bit;
+  }
+}
+
+// Texels of a mask are kept where their coverage is not below the cutoff, as the path tracer keeps them.
+TEST_F(SceneShading, MasksCutOutWhatThePathTracerCutsOut) {
+  Scene scene = textured_square(8, true, [](int x, int y, int c) {
+    return c == 3 ? static_cast<float>((3 * x + 5 * y) % 8) / 7.0f : 0.5f;
+  });
+  scene.textures[0].nearest = true;
+  scene.materials[0].alpha_mode = AlphaMode::mask;
+  scene.materials[0].alpha_cutoff = 0.35f;
+  const Image picture = drawn(scene, white_light());
+  const RenderScene traced(scene, nullptr);
+  int kept = 0, cut = 0, other = 0;
+  for (int y = 9; y < height - 9; ++y)
+    for (int x = 18; x < width - 18; ++x) {
+      const bool here = picture.at(x, y)[3] == 1;
+      const bool there = oracle::point_at_pixel(traced, scene.cameras[0], {width, height}, x, y) != nullptr;
+      ++(here ? kept : cut);
+      other += here != there;
+    }
+  EXPECT_GT(kept, 300);
+  EXPECT_GT(cut, 300);
+  EXPECT_LE(other, 20);  // at the edges of texels
+}
+
+TEST_F(SceneShading, BuiltInScenesHaveThePathTracersNormals) {
   for (const BuiltInScene& built_in : built_in_scenes()) {
     if (built_in.name == "bumpy")
       continue;  // its map is finer than these pixels: the means of its mips are the bump techniques' matter

@@ -4,8 +4,10 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <welkin/error.h>
+#include <welkin/image/srgb.h>
 #include <welkin/scene/mesh_repair.h>
 
 namespace welkin {
@@ -124,6 +126,24 @@ Mesh complete(const Scene& scene, const Mesh& original) {
   return mesh;
 }
 
+// The texture as 8-bit codes, colours by the sRGB curve or plain, alpha plain; one channel stands for all three colours. Nothing
+// where some value is not within a tenth of a step of a code: files of 8 bits come back as what they were, everything else keeps its
+// half floats, in twice the memory.
+std::optional<std::vector<std::uint8_t>> as_codes(const Image& image, bool srgb) {
+  const int channels = image.channels;
+  std::vector<std::uint8_t> codes(image.pixels.size() / static_cast<std::size_t>(channels) * 4, 255);
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    const std::size_t c = i % 4;
+    if (c == 3 && channels < 4) continue;
+    const float value = image.pixels[i / 4 * static_cast<std::size_t>(channels) + (channels == 1 ? 0 : c)];
+    if (!(value >= 0 && value <= 1)) return std::nullopt;
+    const double code = 255 * (srgb && c < 3 ? linear_to_srgb(value) : double{value});
+    if (std::abs(code - std::round(code)) > 0.1) return std::nullopt;
+    codes[i] = static_cast<std::uint8_t>(std::lround(code));
+  }
+  return codes;
+}
+
 // One channel stands for all three colours.
 Image with_colours(const Image& image) {
   if (image.channels != 1) return image;
@@ -133,9 +153,17 @@ Image with_colours(const Image& image) {
 }
 
 GlTexture upload_texture(const Texture& texture) {
-  TextureDesc desc;
+  TextureDesc desc{texture.image.width, texture.image.height};
   desc.linear = !texture.nearest;
-  GlTexture uploaded = upload_image(with_colours(texture.image), desc, true);
+  GlTexture uploaded;
+  for (const bool srgb : {false, true}) {
+    const auto codes =
+        !uploaded && texture.image.channels != 2 ? as_codes(texture.image, srgb) : std::nullopt;
+    if (!codes) continue;
+    desc.format = srgb ? TexelFormat::srgb8_alpha8 : TexelFormat::rgba8;
+    uploaded = upload_bytes(*codes, desc, true);
+  }
+  if (!uploaded) uploaded = upload_image(with_colours(texture.image), desc, true);
   const auto wrap = [](TextureWrap w) {
     return w == TextureWrap::repeat  ? GL_REPEAT
            : w == TextureWrap::clamp ? GL_CLAMP_TO_EDGE

@@ -136,6 +136,16 @@ GlTexture upload_levels(std::span<const Image> levels, TextureDesc desc) {
   return texture;
 }
 
+GlTexture upload_bytes(const std::vector<std::uint8_t>& rgba, TextureDesc desc, bool mipmaps) {
+  desc.levels = mipmaps ? full_chain(std::max(desc.width, desc.height)) : 1;
+  GlTexture texture = make_texture(desc);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, desc.width, desc.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  if (mipmaps) glGenerateMipmap(GL_TEXTURE_2D);
+  check_gl("uploading a texture");
+  return texture;
+}
+
 GlTexture upload_cube(const CubeMips& cube, TexelFormat format) {
   if (cube.empty()) throw Error("OpenGL: an empty cube cannot be a texture");
   TextureDesc desc;

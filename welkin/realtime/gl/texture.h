@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include <welkin/image/byte_image.h>
 #include <welkin/image/image.h>
@@ -33,6 +35,8 @@ GlTexture upload_image(const Image& image, TextureDesc desc, bool mipmaps);
 /// Mip levels that the caller made: levels[k] has max(1, size >> k) texels along an edge. Channels as upload_image; desc gives the format and
 /// how it is sampled.
 GlTexture upload_levels(std::span<const Image> levels, TextureDesc desc);
+/// width * height * 4 bytes as rgba8 or srgb8_alpha8, with mips (averaged in linear light) if wanted.
+GlTexture upload_bytes(const std::vector<std::uint8_t>& rgba, TextureDesc desc, bool mipmaps);
 /// All levels of a cube of 3 channels. Throws Error for an empty one.
 GlTexture upload_cube(const CubeMips& cube, TexelFormat format = TexelFormat::rgba16f);
 
