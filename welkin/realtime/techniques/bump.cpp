@@ -15,12 +15,12 @@ class BumpTechnique : public Technique {
     const PassTimer::Scope timed(frame.timer, name_);
     program_.use();
     set_environment(program_, frame.environment);
-    set_values(program_, values);
+    set_values(program_, frame, values);
     draw_scene(program_, frame.scene, frame.view, &maps_);
   }
 
  protected:
-  virtual void set_values(const Program&, const ParameterValues&) const {}
+  virtual void set_values(const Program&, const Frame&, const ParameterValues&) const {}
 
  private:
   Program program_;
@@ -33,8 +33,18 @@ class NaiveTechnique : public BumpTechnique {
   NaiveTechnique() : BumpTechnique("bump_naive.frag") {}
 
  protected:
-  void set_values(const Program& program, const ParameterValues& values) const override {
+  void set_values(const Program& program, const Frame&, const ParameterValues& values) const override {
     program.set("mips", values[0] == 0 ? 1 : 0);
+  }
+};
+
+class SchillingTechnique : public BumpTechnique {
+ public:
+  SchillingTechnique() : BumpTechnique("bump_schilling.frag") {}
+
+ protected:
+  void set_values(const Program& program, const Frame& frame, const ParameterValues&) const override {
+    program.set("environment_size", static_cast<float>(frame.environment.environment_size));
   }
 };
 
@@ -65,6 +75,13 @@ constexpr TechniqueInfo table[] = {
      Truth::unshadowed,
      {},
      make_lean,
+     nullptr},
+    {"schilling",
+     "the covariance of the normals as an anisotropic footprint, four look-ups",
+     "Schilling 1997; Olano & Baker 2010",
+     Truth::unshadowed,
+     {},
+     make<SchillingTechnique>,
      nullptr},
 };
 
