@@ -7,6 +7,7 @@
 
 #include <welkin/envmap/environment.h>
 #include <welkin/error.h>
+#include <welkin/realtime/ibl_folder.h>
 #include <welkin/realtime/renderer.h>
 #include <welkin/scene/read_scene.h>
 
@@ -78,6 +79,10 @@ Loaded Loader::load(const Request& request) {
     if (request.kind == LoadKind::scene) {
       loaded.scene = open_scene(request.name);
       loaded.warnings = loaded.scene->warnings;
+    } else if (is_ibl_folder(request.name)) {
+      IblFolder set = load_ibl_folder(request.name);
+      loaded.warnings = std::move(set.warnings);
+      loaded.light = std::move(set.light);
     } else {
       Environment environment = load_environment(request.name);
       loaded.warnings = environment.warnings;

@@ -94,7 +94,8 @@ void declare(CLI::App& app, Given& given, ViewOptions& options) {
                  "A scene (.glb .gltf .obj .ply), or else an environment (.hdr .exr ...)");
   app.add_option("--scene", given.scene,
                  "A scene file or a built-in scene, spheres unless given (see welkin scene)");
-  app.add_option("--env", given.environment, "An environment, a file or sky:..., which it is unless given");
+  app.add_option("--env", given.environment,
+                 "An environment: a file, sky:..., which it is unless given, or a folder of welkin ibl");
   app.add_option("--technique", given.technique, "NAME or NAME:key=value,... (welkin frame --list has them)");
   app.add_option("--against", given.against,
                  "What to compare with: truth, a stored one (.exr .hdr), or a technique as above");

@@ -5,6 +5,7 @@
 
 #include <welkin/comparison/picture_errors.h>
 #include <welkin/error.h>
+#include <welkin/realtime/ibl_folder.h>
 
 namespace welkin {
 namespace {
@@ -22,6 +23,11 @@ std::shared_ptr<const EnvironmentData> load_light(const FrameCommand& command,
   if (command.environment == "none")
     throw CLI::ValidationError("--env", "is what lights the scene in real time; none leaves it black");
   const std::string name = command.environment.empty() ? "sky:" : command.environment;
+  if (is_ibl_folder(name)) {
+    IblFolder set = load_ibl_folder(name);
+    for (std::string& warning : set.warnings) warnings.push_back(std::move(warning));
+    return set.light;
+  }
   Environment environment = load_surroundings(command, name);
   for (const std::string& warning : environment.warnings) warnings.push_back(name + ": " + warning);
   IblOptions options;

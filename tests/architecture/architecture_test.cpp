@@ -54,7 +54,7 @@ const std::vector<Confined> confined = {
     {"TurboJPEG", std::regex("(turbojpeg|jpeglib|jerror)\\.h"),
      std::regex("welkin/image/codecs/jpeg[^/]*\\.cpp")},
     {"nlohmann-json", std::regex("nlohmann/.*"),
-     std::regex("welkin/sh/forms/json_form\\.cpp|welkin/scene/gltf[^/]*\\.cpp|apps/.*")},
+     std::regex("welkin/sh/forms/json_form\\.cpp|welkin/scene/gltf[^/]*\\.cpp|welkin/realtime/ibl_folder\\.cpp|apps/.*")},
     {"Embree", std::regex("embree.*"), std::regex("welkin/raytrace/[^/]*\\.cpp")},
     {"tinygltf", std::regex("tiny_gltf\\.h"), std::regex("welkin/scene/gltf[^/]*\\.cpp")},
     {"OpenGL ES", std::regex("GLES[0-9]?/.*"), std::regex("welkin/realtime/gl/gl_api\\.h|apps/viewer/.*")},

@@ -3,6 +3,7 @@
 #include "sphere_picture.h"
 
 #include <welkin/brdf/models.h>
+#include <welkin/envmap/reflection/lobe_stack.h>
 #include <welkin/envmap/reflection/stretched_taps.h>
 #include <welkin/realtime/gl/headless_context.h>
 
@@ -69,6 +70,76 @@ TEST(Stretched, IsCloserToTheIntegralThanTheSplitSum) {
     EXPECT_LT(taps, 0.06) << roughness;
     EXPECT_LT(taps, split / 2) << roughness;
   }
+}
+
+// In GLSL it is what reflect(LobeStack) is in C++, but for octahedral maps in place of cubes.
+TEST(ViewElevation, IsWhatTheLibraryComputesAndNearTheIntegral) {
+  const HeadlessContext context;
+  const Image radiance = small_environment(13);
+  const auto light = small_maps(radiance);
+  const SphereView view{{1, 0.3f, 0.2f}};
+  const auto pixels = sphere_pixels(view, 4, 0.3);
+  const IsotropicBrdf brdf = make_ggx_brdf(0.25, {1, 1, 1});
+  LobeStackOptions options;
+  options.lobes = 1;
+  options.largest_size = 64;
+  const LobeStack stack = prepare_lobe_stack(radiance, brdf, options);
+  std::vector<double> expected;
+  for (const SpherePixel& pixel : pixels)
+    for (const double v : reflect(stack, pixel.query)) expected.push_back(v);
+  const Image picture = draw_sphere("view-elevation:lobes=1", metal(0.5f), light, view);
+  EXPECT_LT(sphere_error(picture, pixels, expected).mean, 5e-3);
+  EXPECT_LT(sphere_error(picture, pixels, expected).largest, 3e-2);
+  const auto truth = sphere_truth(radiance, brdf, pixels);
+  const double one = sphere_error(picture, pixels, truth).mean;
+  const double two =
+      sphere_error(draw_sphere("view-elevation:lobes=2", metal(0.5f), light, view), pixels, truth).mean;
+  const double split =
+      sphere_error(draw_sphere("prefiltered-ggx", metal(0.5f), light, view), pixels, truth).mean;
+  printf("view elevation: one %g two %g split %g\n", one, two, split);
+  EXPECT_LT(one, split);
+  EXPECT_LT(two, one);
+}
+
+TEST(ViewElevation, AConstantSkyIsReflectedAsByTheIntegral) {
+  const HeadlessContext context;
+  const auto light = small_maps(constant_environment(1, 1, 1));
+  const auto pixels = sphere_pixels({}, 4, 0.1);
+  const auto truth = sphere_truth(light->radiance, make_ggx_brdf(0.36, {1, 1, 1}), pixels);
+  // The DFG table's interpolation, and the filter's tolerance of 3e-3.
+  EXPECT_LT(sphere_error(draw_sphere("view-elevation:lobes=1", metal(0.6f), light), pixels, truth).largest,
+            1e-2);
+}
+
+// A small mirror ball under noise: what a pixel should show is the mean over it, here of a picture 16 times as fine.
+TEST(Mirror, AFootprintIsCloserToTheMeanOverAPixelThanAPoint) {
+  const HeadlessContext context;
+  Image noise(256, 128);
+  unsigned seed = 7;
+  for (float& value : noise.pixels) {
+    seed = seed * 1664525u + 1013904223u;
+    value = static_cast<float>(seed >> 8) / 8388608.0f;
+  }
+  const auto light = small_maps(std::move(noise));
+  Material mirror;
+  mirror.model = MaterialModel::mirror;
+  constexpr int size = 16, finer = 16;
+  const Image fine = draw_sphere("mirror:lookup=point", mirror, light, {{0, 0, 1}, size * finer});
+  const auto pixels = sphere_pixels({{0, 0, 1}, size}, 1, 0.5);
+  std::vector<double> truth(3 * pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    for (int y = 0; y < finer; ++y)
+      for (int x = 0; x < finer; ++x)
+        for (std::size_t c = 0; c < 3; ++c)
+          truth[3 * i + c] +=
+              static_cast<double>(fine.at(pixels[i].x * finer + x, pixels[i].y * finer + y)[c]) /
+              (finer * finer);
+  const double footprint =
+      sphere_error(draw_sphere("mirror", mirror, light, {{0, 0, 1}, size}), pixels, truth).mean;
+  const double point =
+      sphere_error(draw_sphere("mirror:lookup=point", mirror, light, {{0, 0, 1}, size}), pixels, truth).mean;
+  printf("mirror: footprint %g point %g\n", footprint, point);
+  EXPECT_LT(footprint, point / 2);
 }
 
 }  // namespace

@@ -168,6 +168,27 @@ GlTexture upload_cube(const CubeMips& cube, TexelFormat format) {
   return texture;
 }
 
+GlTexture upload_volume(std::span<const Image> slices) {
+  if (slices.empty() || slices[0].empty()) throw Error("OpenGL: no slices cannot be a texture");
+  const int width = slices[0].width, height = slices[0].height;
+  GlTexture texture = GlTexture::make();
+  glBindTexture(GL_TEXTURE_3D, texture.name());
+  glTexStorage3D(GL_TEXTURE_3D, 1, GL_RGBA16F, width, height, static_cast<GLsizei>(slices.size()));
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glTexParameteri(GL_TEXTURE_3D, filter, GL_LINEAR);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTexParameteri(GL_TEXTURE_3D, wrap, GL_CLAMP_TO_EDGE);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  for (std::size_t z = 0; z < slices.size(); ++z) {
+    const auto texels =
+        spread_channels(slices[z].pixels.data(), static_cast<std::size_t>(width) * height, 3, 4, true);
+    glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, static_cast<GLint>(z), width, height, 1, GL_RGBA, GL_FLOAT,
+                    texels.data());
+  }
+  check_gl("uploading a 3-D texture");
+  return texture;
+}
+
 Cube read_cube(const GlTexture& texture, int size, int level) {
   const GlFramebuffer framebuffer = GlFramebuffer::make();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());

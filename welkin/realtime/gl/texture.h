@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include <span>
+
 #include <welkin/image/byte_image.h>
 #include <welkin/image/image.h>
 #include <welkin/realtime/gl/objects.h>
@@ -39,6 +41,10 @@ GlTexture upload_levels(std::span<const Image> levels, TextureDesc desc);
 GlTexture upload_bytes(const std::vector<std::uint8_t>& rgba, TextureDesc desc, bool mipmaps);
 /// All levels of a cube of 3 channels. Throws Error for an empty one.
 GlTexture upload_cube(const CubeMips& cube, TexelFormat format = TexelFormat::rgba16f);
+
+/// Images of 3 channels and one size as the slices of a 3-D texture, rgba16f, linear in all three directions, clamped to
+/// the edge.
+GlTexture upload_volume(std::span<const Image> slices);
 
 /// One level of a cube that is in OpenGL, 3 channels: for tests and for comparing with the truth.
 Cube read_cube(const GlTexture& texture, int size, int level);

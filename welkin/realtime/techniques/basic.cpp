@@ -11,6 +11,22 @@ std::unique_ptr<Technique> make_forward() {
   return std::make_unique<ForwardTechnique>(fragment_file);
 }
 
+class Mirror : public ForwardTechnique {
+ public:
+  Mirror() : ForwardTechnique("mirror.frag") {}
+
+ private:
+  void bind(const Program& program, const Frame&, const ParameterValues& values) override {
+    program.set("mirror_footprint", values.empty() || values[0] == 0 ? 1 : 0);
+  }
+};
+
+constexpr std::string_view look_ups[] = {"footprint", "point"};
+constexpr Parameter mirror_parameters[] = {
+    {"lookup", "the mean over what a pixel sees (by the derivatives of the mirrored view), or a point", 0, 1,
+     0, true, look_ups},
+};
+
 void make_mirrors(Scene& scene) {
   for (Material& material : scene.materials) {
     material.model = MaterialModel::mirror;
@@ -22,18 +38,13 @@ void make_diffuse(Scene& scene) {
   for (Material& material : scene.materials) material.model = MaterialModel::lambert;
 }
 
-constexpr const char* mirror_file = "mirror.frag";
 constexpr const char* irradiance_file = "irradiance_map.frag";
 constexpr const char* prefiltered_file = "prefiltered_ggx.frag";
 
 constexpr TechniqueInfo table[] = {
-    {"mirror",
-     "every surface a mirror: one look-up by the reflected view",
-     "Miller & Hoffman 1984",
-     Truth::unshadowed,
-     {},
-     make_forward<mirror_file>,
-     make_mirrors},
+    {"mirror", "every surface a mirror: one look-up by the reflected view", "Miller & Hoffman 1984",
+     Truth::unshadowed, mirror_parameters,
+     [] { return std::unique_ptr<Technique>(std::make_unique<Mirror>()); }, make_mirrors},
     {"irradiance-map",
      "every surface diffuse: one look-up by the normal",
      "Greene 1986",

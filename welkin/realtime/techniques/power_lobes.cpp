@@ -29,7 +29,7 @@ class PowerLobes : public ForwardTechnique {
 
   void bind(const Program& program, const Frame&, const ParameterValues& values) override {
     maps_.bind(program, first_technique_unit);
-    program.set("power_published", values.back() != 0 ? 1 : 0);
+    program.set("power_published", !values.empty() && values.back() != 0 ? 1 : 0);
   }
 
  private:
@@ -43,7 +43,7 @@ class FresnelBlendTechnique : public PowerLobes {
  private:
   void bind(const Program& program, const Frame& frame, const ParameterValues& values) override {
     PowerLobes::bind(program, frame, values);
-    program.set("fresnel_exact", values.front() != 0 ? 1 : 0);
+    program.set("fresnel_exact", !values.empty() && values.front() != 0 ? 1 : 0);
   }
 };
 

@@ -14,6 +14,7 @@ std::span<const TechniqueInfo> techniques() {
              power_lobe_techniques(),
              stretched_techniques(),
              dynamic_glossy_techniques(),
+             view_elevation_techniques(),
              occlusion_techniques(),
              importance_techniques(),
              bump_techniques(),

@@ -13,7 +13,8 @@ std::span<const TechniqueInfo>
 dynamic_irradiance_techniques();  ///< dynamic_irradiance.cpp: dynamic-irradiance, dynamic-phong
 std::span<const TechniqueInfo>
 power_lobe_techniques();  ///< power_lobes.cpp: prefiltered-phong, fresnel-blend, lafortune
-std::span<const TechniqueInfo> stretched_techniques();  ///< stretched.cpp: stretched
+std::span<const TechniqueInfo> stretched_techniques();       ///< stretched.cpp: stretched
+std::span<const TechniqueInfo> view_elevation_techniques();  ///< view_elevation.cpp: view-elevation
 
 std::span<const TechniqueInfo> dynamic_glossy_techniques();  ///< dynamic_glossy.cpp: dynamic-glossy
 std::span<const TechniqueInfo> occlusion_techniques();       ///< occlusion.cpp: ssao-sphere, gtao, ...
