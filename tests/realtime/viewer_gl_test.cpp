@@ -285,7 +285,7 @@ TEST(Viewer, ValuesOutsideTheirRangeAreBroughtIn) {
   {
     Viewer viewer;
     fill(viewer, 8, 8);
-    viewer.state.technique = {&find_technique("mirror"), {1, 2, 3}};
+    viewer.state.technique = {&find_technique("irradiance-map"), {1, 2, 3}};  // which has no parameters
     viewer.draw();
     EXPECT_TRUE(viewer.state.technique.values.empty());
   }
