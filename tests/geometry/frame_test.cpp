@@ -7,7 +7,7 @@
 namespace welkin {
 namespace {
 
-void expect_orthonormal(const Frame& frame) {
+void expect_orthonormal(const LocalFrame& frame) {
   EXPECT_NEAR(dot(frame.tangent, frame.tangent), 1, 1e-6);
   EXPECT_NEAR(dot(frame.bitangent, frame.bitangent), 1, 1e-6);
   EXPECT_NEAR(dot(frame.tangent, frame.bitangent), 0, 1e-6);
