@@ -10,6 +10,7 @@
 #include <welkin/error.h>
 #include <welkin/image/codecs/ldr.h>
 #include <welkin/image/output_file.h>
+#include <welkin/parallel/parallel_for.h>
 
 #include "overlays.h"
 #include "panel.h"
@@ -54,12 +55,13 @@ class Application {
     return std::min(seconds, 0.5);
   }
 
-  // Points of the window that the picture has: all that the panel leaves.
+  // Points of the window that the picture has: what the panel leaves, and half of a narrow window.
   Area picture_area() const {
     const float points = window_.pixels_per_point();
     const float width = static_cast<float>(window_.framebuffer_width()) / points;
     const float height = static_cast<float>(window_.framebuffer_height()) / points;
-    const float left = state_.panel ? std::min(panel_width * ImGui::GetIO().FontGlobalScale, width) : 0.0f;
+    const float left =
+        state_.panel ? std::min(panel_width * ImGui::GetIO().FontGlobalScale, 0.5f * width) : 0.0f;
     return {left, 0, width - left, height};
   }
 
@@ -116,6 +118,7 @@ class Application {
 int run(int argc, char** argv) {
   const ViewOptions options = parse_view_options(argc, argv);
   if (options.exit_code >= 0) return options.exit_code;
+  set_thread_count(options.threads);
   try {
     return Application(options).run();
   } catch (const std::bad_alloc&) {

@@ -112,9 +112,7 @@ void numbers_section(const Session& session) {
   const Viewer& viewer = session.viewer;
   if (viewer.state.reference == ReferenceKind::truth) {
     const Session::TruthStatus truth = session.truth_status();
-    if (!truth.note.empty())
-      ImGui::TextWrapped("%s", truth.note.c_str());
-    else if (truth.stored)
+    if (truth.stored)
       ImGui::TextUnformatted("truth: the file, for the first view");
     else if (truth.samples > 0)
       ImGui::Text("truth: %.0f samples%s, itself off by %.2g %%", truth.samples, truth.busy ? " so far" : "",

@@ -65,6 +65,7 @@ void Session::fall_back(LoadKind kind) {
 void Session::take_loaded() {
   std::optional<Loaded> loaded = loader_.take();
   if (!loaded) return;
+  failed_.reset();  // another scene or light may do
   try {
     if (!loaded->error.empty()) throw Error(loaded->error);
     if (loaded->kind == LoadKind::scene) {
@@ -82,16 +83,22 @@ void Session::take_loaded() {
   }
 }
 
+bool Session::Attempt::operator==(const Attempt& other) const {
+  return technique.technique == other.technique.technique && technique.values == other.technique.values &&
+         comparison == other.comparison;
+}
+
 void Session::draw(int width, int height) {
+  const Attempt tried = attempt();
   try {
     viewer.resize(width, height);
     changed_ = viewer.needs_draw();
-    if (changed_ && (failed_ == nullptr || viewer.state.technique.technique != failed_)) viewer.draw();
-    if (viewer.has_picture()) failed_ = nullptr;
+    if (changed_ && !has_failed()) viewer.draw();
+    if (viewer.has_picture()) failed_.reset();
   } catch (const std::exception& error) {
     say(error.what(), true);
     // The viewer went back to what worked; where nothing did, the same error must not come with every frame.
-    failed_ = viewer.has_picture() ? nullptr : viewer.state.technique.technique;
+    if (!viewer.has_picture()) failed_ = tried;
   }
 }
 
@@ -108,28 +115,28 @@ bool Session::update(int width, int height, double seconds) {
 bool Session::wants_truth() const {
   return viewer.has_picture() && viewer.state.comparison != Comparison::picture &&
          viewer.state.reference == ReferenceKind::truth && stored_view_ != viewer.view_number() &&
-         no_truth_reason(viewer.renderer().technique().truth).empty();
+         untraced_view_ != viewer.view_number();
 }
 
 bool Session::is_settled() const {
-  if (loader_.work() || !viewer.has_picture() || !viewer.is_current()) return false;
+  if (loader_.work()) return false;
+  if (!viewer.has_picture()) return has_failed();
+  if (!viewer.is_current()) return false;
   return !wants_truth() || !tracer_.error().empty() || (viewer.has_truth() && !tracer_.busy());
 }
 
 void Session::request_truth() {
-  TruthRequest request;
   const Renderer& renderer = viewer.renderer();
-  request.view_number = viewer.view_number();
-  request.scene = std::make_shared<const Scene>(renderer.prepared_scene());
-  request.light = light_;
-  request.rotation_degrees = viewer.state.rotation_degrees;
-  request.camera = renderer.camera();
-  request.size = {renderer.picture().width, renderer.picture().height};
-  request.truth = renderer.technique().truth;
-  request.background = viewer.state.background;
-  traced_view_ = request.view_number;
+  const PictureSize size{renderer.picture().width, renderer.picture().height};
+  const unsigned view = viewer.view_number();
   truth_samples_ = truth_error_ = 0;
-  tracer_.request(std::move(request));
+  try {
+    tracer_.request({view, truth_view(renderer), light_, size});
+    traced_view_ = view;
+  } catch (const std::exception& error) {  // of reading back what a technique captured
+    say(error.what(), true);
+    untraced_view_ = view;
+  }
 }
 
 void Session::follow_truth(double seconds) {
@@ -161,8 +168,6 @@ Session::TruthStatus Session::truth_status() const {
   status.samples = viewer.has_truth() ? truth_samples_ : 0;
   status.relative_error = truth_error_;
   status.busy = traced_view_ != 0 && tracer_.busy();
-  if (viewer.has_picture() && !status.stored)
-    status.note = no_truth_reason(viewer.renderer().technique().truth);
   return status;
 }
 

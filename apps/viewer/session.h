@@ -43,7 +43,6 @@ class Session {
   struct TruthStatus {
     double samples = 0, relative_error = 0;
     bool busy = false, stored = false;
-    std::string note;  ///< why there is none
   };
   TruthStatus truth_status() const;
 
@@ -69,10 +68,18 @@ class Session {
   bool had_error_ = false, changed_ = false;
   double quiet_seconds_ = 0;  // since the view changed
   unsigned seen_view_ = 0, traced_view_ = 0;
-  const TechniqueInfo* failed_ = nullptr;  // the technique that could not draw the first picture
+  struct Attempt {
+    TechniqueChoice technique;
+    Comparison comparison = Comparison::picture;
+    bool operator==(const Attempt& other) const;
+  };
+  Attempt attempt() const { return {viewer.state.technique, viewer.state.comparison}; }
+  bool has_failed() const { return failed_ && *failed_ == attempt(); }
+  std::optional<Attempt> failed_;  // what could not draw the first picture
   double truth_samples_ = 0, truth_error_ = 0;
   Image stored_truth_;  // a file's, for the first view
   unsigned stored_view_ = 0;
+  unsigned untraced_view_ = 0;  // whose truth could not be asked for
 };
 
 }  // namespace welkin

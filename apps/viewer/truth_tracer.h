@@ -6,21 +6,16 @@
 #include <string>
 #include <thread>
 
-#include <welkin/pathtrace/picture.h>
-#include <welkin/realtime/technique.h>
+#include <welkin/comparison/truth.h>
 
 namespace welkin {
 
-/// What is to be traced. `scene` is as the technique shows it.
+/// What is to be traced.
 struct TruthRequest {
   unsigned view_number = 0;
-  std::shared_ptr<const Scene> scene;
+  TruthView view;
   std::shared_ptr<const EnvironmentData> light;
-  float rotation_degrees = 0;
-  Camera camera;
   PictureSize size;
-  Truth truth = Truth::unshadowed;
-  bool background = true;
 };
 
 /// So many samples of it.
@@ -63,8 +58,5 @@ class TruthTracer {
   bool busy_ = false, cancel_ = false, stop_ = false;
   std::thread thread_;
 };
-
-/// Why there is no truth of this kind in the window; empty where there is one.
-std::string no_truth_reason(Truth truth);
 
 }  // namespace welkin

@@ -111,6 +111,9 @@ void declare(CLI::App& app, Given& given, ViewOptions& options) {
   app.add_option("--truth-samples", options.truth_samples, "At which the path tracer rests")
       ->check(CLI::Range(8u, 1u << 20))
       ->capture_default_str();
+  app.add_option("--threads", options.threads, "For filtering and the path tracer, 0 for all cores")
+      ->check(CLI::Range(0, 1024))
+      ->take_last();
   app.add_flag("!--no-panel", options.panel, "Start without the panel (Tab brings it)");
   app.add_flag("--help-overlay", options.help, "Start with the keys shown (F1)");
   app.add_option("--frames", options.frames, "Leave after so many frames of the loaded scene; 0 for never")

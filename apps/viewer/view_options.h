@@ -17,6 +17,7 @@ struct ViewOptions {
   int width = 1280, height = 800;
   int map_size = 128;
   unsigned truth_samples = 4096;
+  int threads = 0;  ///< 0: all cores
   float rotation_degrees = 0;
   std::optional<float> exposure_ev;
   ToneCurve curve = ToneCurve::filmic;

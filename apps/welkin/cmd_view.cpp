@@ -24,8 +24,10 @@ std::string viewer_program() {
   return !error && std::filesystem::exists(beside, error) ? beside.string() : "welkin-view";
 }
 
-[[noreturn]] void start_viewer(const std::vector<std::string>& arguments) {
+// What welkin itself was given stands first, so that the window's own takes its place.
+[[noreturn]] void start_viewer(const std::string& threads, const std::vector<std::string>& arguments) {
   std::vector<std::string> words{viewer_program()};
+  if (!threads.empty()) words.insert(words.end(), {"--threads", threads});
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -42,7 +44,10 @@ void add_view_command(CLI::App& app) {
       app.add_subcommand("view", "A window: every technique live, beside the truth (welkin-view)");
   sub->fallthrough(false)->prefix_command();
   sub->set_help_flag();  // welkin-view has its own
-  sub->callback([sub] { start_viewer(sub->remaining()); });
+  sub->callback([&app, sub] {
+    const CLI::Option& threads = *app.get_option("--threads");
+    start_viewer(threads.count() > 0 ? threads.results().back() : "", sub->remaining());
+  });
 }
 
 }  // namespace welkin

@@ -11,12 +11,13 @@
 namespace welkin {
 namespace {
 
-IntegratorOptions integrator_for(Truth truth, const TruthOptions& options) {
+IntegratorOptions integrator_for(Truth truth, const TruthOptions& options, bool show_environment) {
   IntegratorOptions integrator;
   integrator.seed = options.seed;
   integrator.sampling = options.sampling;
   integrator.occlusion_distance = options.occlusion_distance;
   integrator.integrator = Integrator::direct;
+  integrator.show_environment = show_environment;
   switch (truth) {
     case Truth::unshadowed:
     case Truth::dynamic: integrator.shadows = false; break;
@@ -41,14 +42,6 @@ Image boxes_of_cube(const Cube& cube) {
   return cube_to_equirect(cube, 8 * cube.size, 4 * cube.size, options);
 }
 
-Image captured_radiance(const Renderer& renderer) {
-  const Cube captured = renderer.captured_environment();
-  if (captured.empty())
-    throw Error("technique " + std::string(renderer.technique().name) +
-                ": has captured no environment that its truth could be lit by");
-  return boxes_of_cube(captured);
-}
-
 std::optional<float> parameter_value(const TechniqueInfo& technique, const ParameterValues& values,
                                      std::string_view name) {
   for (std::size_t i = 0; i < std::min(values.size(), technique.parameters.size()); ++i)
@@ -63,20 +56,25 @@ std::string_view choice_name(const TechniqueInfo& technique, std::string_view pa
   return "";
 }
 
-}  // namespace
-
-TruthPicture render_truth(const Scene& scene, Image radiance, const Camera& camera, PictureSize size,
-                          Truth truth, const TruthOptions& options) {
+TruthPicture render(const Scene& scene, Image radiance, const Camera& camera, PictureSize size,
+                    const IntegratorOptions& integrator, const TruthOptions& options) {
   const EnvironmentSampler environment(std::move(radiance));
   const RenderScene render_scene(scene, &environment);
   PictureOptions picture;
   picture.size = size;
   picture.samples = options.samples;
-  picture.integrator = integrator_for(truth, options);
+  picture.integrator = integrator;
   PictureState state = make_picture_state(size);
   render_picture(state, render_scene, camera, picture, options.observer);
   PictureLayers layers = make_picture_layers(state);
   return {std::move(layers.radiance), std::move(layers.standard_error), std::move(layers.coverage)};
+}
+
+}  // namespace
+
+TruthPicture render_truth(const Scene& scene, Image radiance, const Camera& camera, PictureSize size,
+                          Truth truth, const TruthOptions& options) {
+  return render(scene, std::move(radiance), camera, size, integrator_for(truth, options, true), options);
 }
 
 Truth truth_of(const TechniqueInfo& technique, const ParameterValues& values) {
@@ -86,16 +84,39 @@ Truth truth_of(const TechniqueInfo& technique, const ParameterValues& values) {
   return shaded ? Truth::direct : technique.truth;
 }
 
+TruthView truth_view(const Renderer& renderer, float occlusion_distance) {
+  TruthView view;
+  view.scene = renderer.prepared_scene();
+  view.camera = renderer.camera();
+  view.truth = truth_of(renderer.technique(), renderer.values());
+  view.rotation_degrees = renderer.rotation_degrees();
+  view.occlusion_distance = occlusion_distance;
+  if (view.truth == Truth::ambient_occlusion)
+    view.occlusion_distance =
+        parameter_value(renderer.technique(), renderer.values(), "radius").value_or(occlusion_distance);
+  if (view.truth == Truth::dynamic) view.captured = renderer.captured_environment();
+  view.show_environment = renderer.show_background;
+  return view;
+}
+
+Image truth_radiance(const TruthView& view, const EnvironmentData& light) {
+  if (view.truth != Truth::dynamic) return rotated(light.radiance, double{view.rotation_degrees});
+  if (view.captured.empty())
+    throw Error("the technique has captured no environment that its truth could be lit by");
+  return boxes_of_cube(view.captured);
+}
+
+IntegratorOptions truth_integrator(const TruthView& view, const TruthOptions& options) {
+  TruthOptions own = options;
+  own.occlusion_distance = view.occlusion_distance;
+  return integrator_for(view.truth, own, view.show_environment);
+}
+
 TruthPicture render_truth(const Renderer& renderer, const EnvironmentData& light, PictureSize size,
                           const TruthOptions& options) {
-  const Truth truth = truth_of(renderer.technique(), renderer.values());
-  TruthOptions own = options;
-  if (truth == Truth::ambient_occlusion)
-    own.occlusion_distance = parameter_value(renderer.technique(), renderer.values(), "radius")
-                                 .value_or(options.occlusion_distance);
-  Image radiance = truth == Truth::dynamic ? captured_radiance(renderer)
-                                           : rotated(light.radiance, double{renderer.rotation_degrees()});
-  return render_truth(renderer.prepared_scene(), std::move(radiance), renderer.camera(), size, truth, own);
+  const TruthView view = truth_view(renderer, options.occlusion_distance);
+  return render(view.scene, truth_radiance(view, light), view.camera, size, truth_integrator(view, options),
+                options);
 }
 
 }  // namespace welkin

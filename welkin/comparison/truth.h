@@ -33,6 +33,27 @@ TruthPicture render_truth(const Scene& scene, Image radiance, const Camera& came
 /// parameter "show" is at its choice "shaded".
 Truth truth_of(const TechniqueInfo& technique, const ParameterValues& values);
 
+/// All that the truth of a renderer's picture needs of it, for a thread that has no OpenGL.
+struct TruthView {
+  Scene scene;  ///< as the technique shows it
+  Camera camera;
+  Truth truth = Truth::unshadowed;  ///< truth_of() its technique and values
+  float rotation_degrees = 0;
+  float occlusion_distance = 1e30f;
+  Cube captured;  ///< Truth::dynamic: what lights the scene
+  bool show_environment = true;
+};
+
+/// Of what the renderer last drew. A parameter "radius" of a technique of occlusion takes the place of occlusion_distance.
+TruthView truth_view(const Renderer& renderer, float occlusion_distance = 1e30f);
+
+/// What lights it: `light` is what the renderer's set_environment was given. Throws Error where a dynamic technique has
+/// captured nothing yet.
+Image truth_radiance(const TruthView& view, const EnvironmentData& light);
+
+/// How the path tracer is set for it; the view's occlusion_distance counts, not that of the options.
+IntegratorOptions truth_integrator(const TruthView& view, const TruthOptions& options = {});
+
 /// Of what the renderer last drew, by its own technique, camera and rotation; for Truth::dynamic by the environment that
 /// the technique captured. `light` is what set_environment was given; size: the truth's own, which the renderer's
 /// picture may have a multiple of. A parameter "radius" of a technique of occlusion takes the place of
