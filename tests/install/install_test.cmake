@@ -1,4 +1,5 @@
 # Run by ctest with -P. BUILD: a finished build of welkin. WORK: a scratch folder, emptied first.
+# VIEWER: whether the window is built. BIN: the folder of programs below the prefix.
 function(step what)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -13,6 +14,12 @@ step("installing" ${CMAKE_COMMAND} --install "${BUILD}" --prefix "${WORK}/prefix
 step("configuring the outside project" ${CMAKE_COMMAND} -S "${CONSUMER}" -B "${WORK}/build" -G "${GENERATOR}"
   "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix")
 step("building the outside project" ${CMAKE_COMMAND} --build "${WORK}/build" --parallel 2)
+if(VIEWER)  # `welkin view` must find the window where it was installed: the PATH of this shell has none
+  step("welkin view --help" "${WORK}/prefix/${BIN}/welkin" view --help)
+  if(NOT output MATCHES "--screenshot")
+    message(FATAL_ERROR "the installed welkin view --help printed:\n${output}")
+  endif()
+endif()
 foreach(program by_module by_umbrella)
   step("running ${program}" "${WORK}/build/${program}" "${WORK}/${program}.txt")
   if(NOT output STREQUAL "45 4\n")
