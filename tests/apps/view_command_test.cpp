@@ -89,6 +89,55 @@ TEST(ViewCommand, TracesTheTruthOfAScene) {
   EXPECT_EQ(load_image(folder.path() / "w.png").flat.width, 430);
 }
 
+// Half of a window that is narrower than the panel is left for the picture: without one nothing could settle.
+TEST(ViewCommand, ANarrowWindowHasAPictureAndATruthOfOcclusion) {
+  const TemporaryFolder folder;
+  const ViewRun run = run_on_display(folder.path(),
+                                     "--technique ssao-range --against truth --truth-samples 8 --size 240x60 "
+                                     "--map-size 16 --screenshot w.png");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_GT(colours_of(load_image(folder.path() / "w.png").flat, 125, 240), 20u);
+}
+
+// A light that a technique captures itself is the truth's light too.
+TEST(ViewCommand, TracesTheTruthOfADynamicTechnique) {
+  const TemporaryFolder folder;
+  const ViewRun run =
+      run_on_display(folder.path(),
+                     "--technique dynamic-irradiance:size=16 --against truth --truth-samples 8 "
+                     "--no-panel --size 80x60 --map-size 16 --screenshot w.png");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(load_image(folder.path() / "w.png").flat.width, 80);
+}
+
+// A driver of OpenGL ES 3.0, as Mesa pretends to have here, has no compute shaders.
+TEST(ViewCommand, AScriptWhoseFirstPictureFailsLeavesWithTheError) {
+  const TemporaryFolder folder;
+  const ViewRun run = run_shell(
+      folder.path(), "MESA_GLES_VERSION_OVERRIDE=3.0 timeout 300 xvfb-run -a -s '-screen 0 800x600x24'",
+      "--technique dynamic-irradiance:projection=compute --no-panel --size 80x60 --map-size 16 "
+      "--frames 2 --screenshot w.png");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(line_count(run.err), 1u) << run.err;
+  EXPECT_NE(run.err.find("compute shaders"), std::string::npos) << run.err;
+}
+
+// A program that says what it was given stands beside a copy of welkin in place of the window.
+TEST(ViewCommand, PassesThreadsOn) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(WELKIN_COMMAND, folder.path() / "welkin");
+  write_text(folder.path() / "welkin-view", "#!/bin/sh\necho \"$@\"\n");
+  std::filesystem::permissions(folder.path() / "welkin-view", std::filesystem::perms::owner_all);
+  const auto said = [&](const std::string& arguments) {
+    const std::string in = "cd '" + folder.path().string() + "' && ";
+    EXPECT_EQ(std::system((in + "./welkin " + arguments + " >said.txt").c_str()), 0);
+    return read_text(folder.path() / "said.txt");
+  };
+  EXPECT_EQ(said("--threads 3 view a.hdr"), "--threads 3 a.hdr\n");
+  EXPECT_EQ(said("view a.hdr --threads 2"), "a.hdr --threads 2\n");
+  EXPECT_EQ(said("view a.hdr"), "a.hdr\n");
+}
+
 // The window stays; what a script started reports what was wrong in the end.
 TEST(ViewCommand, AFileThatCannotBeReadIsShownAndReported) {
   const TemporaryFolder folder;
