@@ -11,10 +11,9 @@ set(WELKIN_NOT_IN_envmap
   inpaint.cpp laplace_solver.cpp light_fit.cpp light_regions.cpp lights.cpp lights_check.cpp stored_errors.cpp verify.cpp
   reflection/brdf_spectrum.cpp reflection/lafortune_truth.cpp reflection/low_frequency.cpp reflection/shrm.cpp
   reflection/shrm_orders.cpp reflection/stack_files.cpp reflection/truth.cpp methods/angular.cpp methods/bordered.cpp
-  methods/box.cpp methods/brute.cpp methods/cube_texels.cpp methods/filter_method.cpp methods/filter_truth.cpp
-  methods/frequency.cpp methods/hierarchical.cpp methods/importance.cpp methods/kernel_quantiles.cpp
-  methods/map_pyramid.cpp methods/paraboloid.cpp methods/planar_filter.cpp methods/quick.cpp methods/quick_taps.cpp
-  methods/spline_mips.cpp methods/working_cube.cpp)
+  methods/box.cpp methods/brute.cpp methods/filter_method.cpp methods/filter_truth.cpp
+  methods/frequency.cpp methods/hierarchical.cpp methods/importance.cpp
+  methods/paraboloid.cpp methods/planar_filter.cpp methods/quick.cpp)
 set(WELKIN_NOT_IN_scene
   gltf_write.cpp mtl.cpp obj.cpp obj_parse.cpp ply.cpp ply_header.cpp polygon.cpp read_scene.cpp file_resolver.cpp)
 # The browser brings the context.
